@@ -8,7 +8,8 @@
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make record [OUT=DIR]                             keep a run's summary in results/records
-#   make engines [OUT=DIR]                           other engines and ours, asked the same
+#   make readme-figure [OUT=DIR]                     measure the README's figure again
+#   make engines [PROFILE=quick] [RECORD=1] [OUT=DIR]  other engines and ours, asked the same
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
@@ -121,10 +122,19 @@ bench: build page
 sweep: build
 	@harness/scripts/bench.sh $(MOTE) sweep $(call out,sweep)
 
-# Other engines and ours, asked for contacts and for distances of the same frames (docs/peers.md).
+# The figure of the README: measured, drawn, and put where the README looks for it.
+.PHONY: readme-figure
+readme-figure: build page
+	@harness/scripts/bench.sh $(MOTE) fig3 $(call out,fig3)
+	@cp $(call out,fig3)/figures/fig3.svg results/reference/fig3.svg
+
+# Other engines and ours, asked for contacts and for distances of the same frames. RECORD=1: into the
+# tables of docs/peers.md.
 .PHONY: engines
 engines: build
-	@harness/scripts/bench.sh $(MOTE) engines $(call out,engines)
+	@harness/scripts/bench.sh $(MOTE) engines$(if $(filter quick,$(PROFILE)),-quick) \
+	    $(call out,engines)
+	@$(if $(RECORD),harness/scripts/peers.sh $(call out,engines) docs/peers.md)
 
 # FCL as Debian compiles it against FCL compiled here.
 .PHONY: fcl-flags

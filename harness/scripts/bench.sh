@@ -27,16 +27,32 @@ sizes() {
     done
 }
 
-# engines REPLICATES: other engines and ours, asked for contacts and for distances on the same frames.
+# engines REPLICATES all|few: other engines and ours, asked for contacts and for distances. All that are asked
+# the same question take turns, in every frame; few: in 200 frames of bodies that deform.
 engines() {
-    for scenario in ww mv tt-distance ww-contact mv-contact tt; do
-        measure $scenario --replicates "$1" --method $plain --method aabb-tree --method certified
+    own='--method aabb-tree --method aabb-tree:build=samples --method certified'
+    for part in ww:1201-1400 mv:301-500 tt:1-600; do
+        scenario=${part%:*}
+        frames=
+        [ "$2" = all ] || frames="--frames ${part#*:}"
+        case $scenario in
+        tt) contact=tt distance=tt-distance ;;
+        *) contact=$scenario-contact distance=$scenario ;;
+        esac
+        rigid=false
+        [ $scenario != tt ] || rigid=true
+        # shellcheck disable=SC2046,SC2086 # options and their values
+        measure $contact --replicates "$1" --stride 1 $frames $own $(contact_engines) \
+            $(if $rigid; then rigid_engines contact; fi)
+        # shellcheck disable=SC2046,SC2086
+        measure $distance --replicates "$1" --stride 1 $frames --method $plain $own $(distance_engines) \
+            $(if $rigid; then rigid_engines distance; fi)
     done
-    for scenario in ww-contact mv-contact tt; do
-        measure_contacts $scenario --replicates "$1"
+    # The other rigid bodies, of which only contact is asked.
+    for scenario in rigid-ww rigid-mv; do
+        # shellcheck disable=SC2046,SC2086
+        measure "$(ask_contact $scenario)" --replicates "$1" --stride 1 $own $(rigid_engines contact)
     done
-    for scenario in ww mv tt-distance; do measure_distances $scenario --replicates "$1"; done
-    for scenario in tt tt-distance; do measure_rigid $scenario --replicates "$1"; done
 }
 
 # Measures the claims into the same directory, once per build; `make claims` reports whether this
@@ -81,7 +97,7 @@ paper)
     for scenario in ww tt mv ww-contact mv-contact tt-distance; do
         measure_best $scenario --replicates 5
     done
-    engines 5
+    engines 5 all
     measure ww --replicates 5 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method particle-paper --particles 5,8
@@ -95,7 +111,7 @@ full)
     for scenario in ww tt mv ww-contact mv-contact tt-distance; do
         measure_best $scenario --replicates 10
     done
-    engines 10
+    engines 10 all
     measure ww tt mv --replicates 10 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near' --particles 5,8,16
@@ -110,11 +126,19 @@ full)
 sweep)
     sizes
     ;;
+fig3)
+    # shellcheck disable=SC2046
+    measure ww --replicates 5 --method $plain --method $tuned --method fcl-obbrss --method certified \
+        --method particle-paper:n=5 $(distance_engines)
+    ;;
 engines)
-    engines 3
+    engines 3 all
+    ;;
+engines-quick)
+    engines 3 few
     ;;
 *)
-    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full, sweep or engines" >&2
+    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full, sweep, fig3, engines or engines-quick" >&2
     exit 2
     ;;
 esac
@@ -132,7 +156,7 @@ others=$("$mote" figures "$out" 2>&1 >/dev/null) || status=$?
 }
 "$mote" report "$out" >/dev/null
 case $profile in
-engines) "$mote" summarize "$out" --engines ;;
+engines*) "$mote" summarize "$out" --engines ;;
 *) "$mote" summarize "$out" --best ;;
 esac
 cat <<PLACES

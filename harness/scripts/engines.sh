@@ -1,5 +1,6 @@
 # The third-party engines in this build, each with its authors' settings and with the best settings that
-# we know of. Sourced after measure.sh by bench.sh and tune.sh; needs $mote.
+# we know of. Sourced after measure.sh by bench.sh, tune.sh and
+# verdicts.sh; needs $mote and $out.
 methods=$("$mote" list methods | sed -n 's/^\([a-z0-9-]*\):.*/\1/p')
 
 # has METHOD: whether this build has it.
@@ -23,38 +24,49 @@ measure_engine() {
     fi
 }
 
-# measure_distances SCENARIO ARGUMENT...: engines that answer distances.
-measure_distances() {
-    measure "$@" --method 'fcl-aabb:seed=previous,queue=2|64,build=rest|samples'
-    measure_engine coal-aabb ':bound=coal|full,seed=previous' "$@"
-    measure_engine coal-aabb ':bound=full,seed=previous,queue=64' "$@"
+# offered METHOD CONFIGURATION: as an option, if this build has the method.
+offered() {
+    if has "$1"; then echo "--method $1$2"; fi
 }
 
-# measure_contacts SCENARIO ARGUMENT...: engines that answer contacts.
-measure_contacts() {
-    measure "$@" --method 'fcl-aabb:build=rest|samples'
-    measure_engine coal-aabb '' "$@"
-    measure_engine coal-aabb ':contact=distance,bound=full,seed=previous' "$@"
-    measure_engine ode ':vertices=double|single' "$@"
-    measure_engine bullet-gimpact ':stop=no|yes' "$@"
-    measure_engine embree-contact '' "$@"
+# The engines of others that answer distances, contacts, and those that move rigid bodies by their poses, if
+# QUESTION is contact also those that answer only contacts. One `mote run` asks them in turn.
+distance_engines() {
+    offered fcl-aabb ':seed=previous,queue=2|64,build=rest|samples'
+    offered coal-aabb ':bound=coal|full,seed=previous'
+    offered coal-aabb ':bound=full,seed=previous,queue=64'
 }
 
-# measure_rigid SCENARIO ARGUMENT...: engines that move rigid bodies by their poses; if contacts are
-# asked, also those that answer only contacts.
-measure_rigid() {
+contact_engines() {
+    offered fcl-aabb ':build=rest|samples'
+    offered coal-aabb ''
+    offered coal-aabb ':contact=distance,bound=full,seed=previous'
+    offered ode ':vertices=double|single'
+    offered bullet-gimpact ':stop=no|yes'
+    offered embree-contact ''
+}
+
+rigid_engines() { # QUESTION
     for volume in obb rss obbrss kios; do
-        measure "$@" --method "fcl-$volume:update=none,build=rest|samples"
-        case "$1 $volume" in
-        *-distance\ obb) ;;
-        *) measure_engine coal-$volume ':update=none' "$@" ;;
-        esac
+        offered fcl-$volume ':update=none,build=rest|samples'
+        if [ "$1 $volume" != 'distance obb' ]; then offered coal-$volume ':update=none'; fi
     done
-    case $1 in
-    *-distance) ;;
-    *)
-        measure_engine ode ':update=none,vertices=double|single' "$@"
-        measure_engine bullet-gimpact ':update=none,stop=no|yes' "$@"
-        ;;
-    esac
+    if [ "$1" = contact ]; then
+        offered ode ':update=none,vertices=double|single'
+        offered bullet-gimpact ':update=none,stop=no|yes'
+    fi
+}
+
+# ask_contact NAME: the path of a scenario with the frames of NAME that asks for contact only.
+ask_contact() {
+    mkdir -p "$out/scenarios"
+    asked=$out/scenarios/$1.json
+    built_in=$(find datasets/scenarios -name "$1.json")
+    if grep -q '^  "like":' "$built_in"; then
+        # A scenario like another one cannot be named by "like".
+        sed 's/^  "like": "[^"]*",$/&\n  "ask": "contact",/' "$built_in" >"$asked"
+    else
+        printf '{"purpose": "Contacts of %s.", "like": "%s", "ask": "contact"}\n' "$1" "$1" >"$asked"
+    fi
+    echo "$asked"
 }

@@ -60,24 +60,28 @@ done
 # The engines on these frames, asked for contacts and for distances.
 for scenario in ww mv tt-distance; do
     # shellcheck disable=SC2046
-    measure_distances $scenario --replicates $replicates $(frames $scenario)
+    measure $scenario --replicates $replicates $(frames $scenario) $(distance_engines)
 done
 for scenario in ww-contact mv-contact tt; do
     # shellcheck disable=SC2046
     set -- $scenario --replicates $replicates $(frames $scenario)
     measure "$@" --method certified --method 'aabb-tree:seed=none|previous,build=rest|samples'
-    measure_contacts "$@"
+    # shellcheck disable=SC2046
+    measure "$@" $(contact_engines)
 done
 for scenario in tt tt-distance; do
+    question=contact
+    [ $scenario = tt ] || question=distance
     # shellcheck disable=SC2046
-    measure_rigid $scenario --replicates $replicates $(frames $scenario)
+    measure $scenario --replicates $replicates $(frames $scenario) $(rigid_engines $question)
 done
 
 # Characters: trees are built at rest and by sample poses, and the better one counts.
 for scenario in bison-15k jumper-20k; do
     # shellcheck disable=SC2046
     set -- $scenario --replicates $replicates $(frames $scenario)
-    measure_distances "$@"
+    # shellcheck disable=SC2046
+    measure "$@" $(distance_engines)
     measure "$@" --method certified --method 'aabb-tree:seed=none|previous,build=rest|samples' \
         --method 'fcl-aabb:build=rest|samples' --method 'fcl-rss:build=rest|samples' \
         --method 'posed-parts:search=fcl|certified'

@@ -24,20 +24,6 @@ paper | full) stride=auto slow=auto ;;
     ;;
 esac
 
-# ask_contact NAME: the path of a scenario with the frames of NAME that asks for contact only.
-ask_contact() {
-    mkdir -p "$out/scenarios"
-    asked=$out/scenarios/$1.json
-    built_in=$(find datasets/scenarios -name "$1.json")
-    if grep -q '^  "like":' "$built_in"; then
-        # A scenario like another one cannot be named by "like".
-        sed 's/^  "like": "[^"]*",$/&\n  "ask": "contact",/' "$built_in" >"$asked"
-    else
-        printf '{"purpose": "Contacts of %s.", "like": "%s", "ask": "contact"}\n' "$1" "$1" >"$asked"
-    fi
-    echo "$asked"
-}
-
 # verdicts SCENARIO STRIDE METHOD...: of those that this build has.
 verdicts() {
     scenario=$1

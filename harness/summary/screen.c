@@ -165,27 +165,47 @@ static bool is_right_fcl(const mote_summary_row *row)
     return mote_summary_is_fcl(row) && mote_summary_row_right(row);
 }
 
-/* Prints which row that competes has the least of each statistic; nothing without any. */
+/* The row that competes with the least of a statistic; NULL without any. */
+static const mote_summary_row *least_row(const choice *c,
+                                         bool (*competes)(const mote_summary_row *),
+                                         const struct statistic *s)
+{
+    const mote_summary_row *least = NULL;
+    for (size_t i = 0; i < c->count; ++i) {
+        const double value = statistic_of(c->rows[i], s);
+        if (competes(c->rows[i]) && value == value &&
+            (!least || value < statistic_of(least, s)))
+            least = c->rows[i];
+    }
+    return least;
+}
+
+/* Prints which row that competes has the least of each statistic, a row that has several in
+   turn once; nothing without any. */
 static void print_least(const choice *c, bool (*competes)(const mote_summary_row *),
                         const char *what, FILE *out)
 {
     mote_text words = {0};
+    const mote_summary_row *last = NULL;
     for (size_t k = 0; k < sizeof statistics / sizeof *statistics; ++k) {
-        const mote_summary_row *least = NULL;
-        for (size_t i = 0; i < c->count; ++i) {
-            const double value = statistic_of(c->rows[i], &statistics[k]);
-            if (competes(c->rows[i]) && value == value &&
-                (!least || value < statistic_of(least, &statistics[k])))
-                least = c->rows[i];
-        }
+        const mote_summary_row *least = least_row(c, competes, &statistics[k]);
         if (!least)
             continue;
+        if (last && least != last)
+            mote_text_add(&words, ": %s; ", last->label);
         char shown[MOTE_NUMBER_TEXT];
-        mote_text_add(&words, "%s%s %s, %s", k > 0 ? "; " : what, statistics[k].name,
-                      mote_show_time(statistic_of(least, &statistics[k]), shown), least->label);
+        mote_text_add(&words, "%s%s %s",
+                      !last           ? what
+                      : least == last ? ", "
+                                      : "",
+                      statistics[k].name,
+                      mote_show_time(statistic_of(least, &statistics[k]), shown));
+        last = least;
     }
-    if (words.size > 0)
+    if (last) {
+        mote_text_add(&words, ": %s", last->label);
         print_words(&words, out);
+    }
     free(words.data);
 }
 

@@ -174,8 +174,9 @@ TEST(engines_are_best_by_each_statistic)
         "4 frames, 2 replicates", "best FCL", "engine", "median", "mean", "p95", "worst",
         "\n  ours ", "1.00 ns", "1.25 ns", "2.00 ns", "30.0", "10.0", "\n  bullet-gimpact ",
         " 1 ", "\n* ode ", "9.00 us", "\n  coal-aabb ", "\n  fcl-obb ", "\n  fcl-aabb ",
-        "\nbest engine of others (*): median 10.0 ns, ode; mean 30.0 ns, coal-aabb;", "worst",
-        "50.0 ns,", "fcl-aabb\n", "best FCL: median 30.0 ns, fcl-obb; mean 42.5", "fcl-aabb;");
+        "\nbest engine of others (*): median 10.0 ns: ode; mean 30.0 ns: coal-aabb; p95 "
+        "50.0 ns,",
+        "worst", "fcl-aabb\n", "best FCL: median 30.0 ns: fcl-obb; mean 42.5", ": fcl-aabb\n");
     assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
     mote_expect(2, "--engines is for --format table", "summarize --engines --format json .");
 }
