@@ -16,6 +16,7 @@
 #include "core/particle/start.h"
 #include "tests/support/crowd.h"
 #include "tests/faults/failing.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <errno.h>
@@ -361,12 +362,7 @@ TEST(methods_when_an_allocation_fails_say_so)
     test_body_init(&b[1], solid_to_mesh(solid_torus(4, 4)), -2, &seed);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         double values[MOTE_PARAMETERS_MAX];
-        method_work w = {.method = mote_method_find(cases[k].name)};
-        const mote_parameter *table = w.method->parameters;
-        mote_parameters_default(table, w.method->parameter_count, values);
-        assert_int_equal(
-            mote_parameters_parse(table, w.method->parameter_count, cases[k].keys, values),
-            MOTE_OK);
+        method_work w = {.method = method_with(cases[k].name, cases[k].keys, values)};
         w.setup = (mote_setup){.body = {&b[0].body, &b[1].body},
                                .length = fmax(b[0].mesh->diagonal, b[1].mesh->diagonal),
                                .seed = 1,

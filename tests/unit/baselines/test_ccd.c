@@ -2,6 +2,7 @@
 #include "baselines/gjk.h"
 #include "datasets/letter.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 /* An ellipsoid with half axes size * (1, 0.7, 0.5), of 2 * slices * (rings - 1) triangles. */
@@ -40,12 +41,8 @@ static mote_mesh *make_ellipsoid(uint32_t slices, uint32_t rings, double size)
 
 static void *create(const char *options, const scene *s, mote_ask ask, double tolerance)
 {
-    const mote_method *m = mote_method_find("ccd-convex");
-    assert_non_null(m);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
-                     MOTE_OK);
+    const mote_method *m = method_with("ccd-convex", options, values);
     mote_setup setup = scene_setup(s, ask, tolerance, values);
     void *state = NULL;
     assert_int_equal(m->create(&setup, &state), MOTE_OK);
@@ -179,11 +176,10 @@ TEST(query_measures_penetration_of_overlapping_bodies)
 
 TEST(create_and_update_refuse_bad_input)
 {
-    const mote_method *m = mote_method_find("ccd-convex");
     scene s;
     scene_init(&s, 8, 5, 1, true);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
+    const mote_method *m = method_with("ccd-convex", "", values);
     mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, values);
     mote_mesh empty = *s.mesh[0];
     empty.triangle_count = 0;

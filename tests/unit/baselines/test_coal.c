@@ -1,5 +1,6 @@
 /* Coal's methods against brute force, if Coal was found. */
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stdio.h>
@@ -45,11 +46,8 @@ static bool is_missing(void)
 static mote_status make(const variant *v, const scene *s, mote_ask ask, double tolerance,
                         void **state)
 {
-    const mote_method *m = mote_method_find(v->method);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(
-        mote_parameters_parse(m->parameters, m->parameter_count, v->options, values), MOTE_OK);
+    const mote_method *m = method_with(v->method, v->options, values);
     const mote_setup setup = scene_setup(s, ask, tolerance, values);
     return m->create(&setup, state);
 }

@@ -1,6 +1,7 @@
 /* The baselines that report contact only, as far as they were built, against brute force:
    Embree, ODE, Bullet and Coal. */
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stdio.h>
@@ -26,20 +27,11 @@ static const engine engines[] = {
     {"coal-obb", "update=none", false, true},
 };
 #define ENGINES (sizeof engines / sizeof engines[0])
-enum { VALUES_MAX = 8 };
 
 /* The method and its values, or NULL if its library was missing. */
-static const mote_method *find(const engine *e, double values[VALUES_MAX])
+static const mote_method *find(const engine *e, double values[MOTE_PARAMETERS_MAX])
 {
-    const mote_method *m = mote_method_find(e->method);
-    if (m) {
-        assert_true(m->parameter_count <= VALUES_MAX);
-        mote_parameters_default(m->parameters, m->parameter_count, values);
-        assert_int_equal(
-            mote_parameters_parse(m->parameters, m->parameter_count, e->values, values),
-            MOTE_OK);
-    }
-    return m;
+    return mote_method_find(e->method) ? method_with(e->method, e->values, values) : NULL;
 }
 
 /* All engines that support a scene, side by side. */
@@ -52,7 +44,7 @@ static void crowd_create(crowd *c, const scene *s, double tolerance, bool deform
 {
     *c = (crowd){0};
     for (size_t i = 0; i < ENGINES; ++i) {
-        double values[VALUES_MAX];
+        double values[MOTE_PARAMETERS_MAX];
         if ((tolerance > 0 && !engines[i].tolerance) || (deforming && engines[i].posed))
             continue;
         c->method[i] = find(&engines[i], values);
@@ -141,7 +133,7 @@ TEST(query_far_from_the_origin_agrees_with_brute_force)
 static void expect_refused(const engine *e, scene *s, mote_ask ask, double tolerance,
                            mote_status expected)
 {
-    double values[VALUES_MAX];
+    double values[MOTE_PARAMETERS_MAX];
     const mote_method *m = find(e, values);
     mote_setup setup = scene_setup(s, ask, tolerance, values);
     void *state = NULL;
@@ -175,7 +167,7 @@ TEST(update_with_a_bad_frame_is_refused)
 {
     for (size_t i = 0; i < ENGINES; ++i) {
         const engine *e = &engines[i];
-        double values[VALUES_MAX];
+        double values[MOTE_PARAMETERS_MAX];
         const mote_method *m = find(e, values);
         if (!m)
             continue;

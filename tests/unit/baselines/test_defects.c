@@ -9,6 +9,7 @@
 #include "core/body/deform.h"
 #include "harness/scene/scenario.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <ccd/ccd.h>
@@ -21,12 +22,8 @@
 
 static void *create(const char *name, const char *options, const scene *s, mote_ask ask)
 {
-    const mote_method *m = mote_method_find(name);
-    assert_non_null(m);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
-                     MOTE_OK);
+    const mote_method *m = method_with(name, options, values);
     mote_setup setup = scene_setup(s, ask, 0, values);
     void *state = NULL;
     assert_int_equal(m->create(&setup, &state), MOTE_OK);
@@ -135,12 +132,8 @@ TEST(fcl_sum_of_oriented_boxes_does_not_contain_them)
 static bool touches_in_frame_101(const mote_scenario *scenario, const char *name,
                                  const char *options)
 {
-    const mote_method *m = mote_method_find(name);
-    assert_non_null(m);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
-                     MOTE_OK);
+    const mote_method *m = method_with(name, options, values);
     const mote_setup setup = {.body = {&scenario->body[0], &scenario->body[1]},
                               .length = scenario->length,
                               .ask = MOTE_ASK_CONTACT,

@@ -1,6 +1,7 @@
 /* The FCL adapters against brute force with our own triangle distance. */
 #include "harness/base/heap_count.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stdio.h>
@@ -10,21 +11,10 @@ typedef struct variant {
     const char *method, *options;
 } variant;
 
-static void parse(const variant *v, const mote_method **method, double *values)
-{
-    *method = mote_method_find(v->method);
-    assert_non_null(*method);
-    mote_parameters_default((*method)->parameters, (*method)->parameter_count, values);
-    assert_int_equal(mote_parameters_parse((*method)->parameters, (*method)->parameter_count,
-                                           v->options, values),
-                     MOTE_OK);
-}
-
 static void *create(const variant *v, const scene *s, mote_ask ask, double tolerance)
 {
     static double values[MOTE_PARAMETERS_MAX];
-    const mote_method *method;
-    parse(v, &method, values);
+    const mote_method *method = method_with(v->method, v->options, values);
     mote_setup setup = scene_setup(s, ask, tolerance, values);
     void *state = NULL;
     mote_status status = method->create(&setup, &state);
@@ -37,8 +27,7 @@ static void *create(const variant *v, const scene *s, mote_ask ask, double toler
 static mote_status try_create(const variant *v, const mote_setup *setup_without_values)
 {
     double values[MOTE_PARAMETERS_MAX];
-    const mote_method *method;
-    parse(v, &method, values);
+    const mote_method *method = method_with(v->method, v->options, values);
     mote_setup setup = *setup_without_values;
     setup.values = values;
     void *state = NULL;
@@ -472,8 +461,7 @@ TEST(traits_follow_the_parameters)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         double values[MOTE_PARAMETERS_MAX];
-        const mote_method *method;
-        parse(&cases[i].v, &method, values);
+        const mote_method *method = method_with(cases[i].v.method, cases[i].v.options, values);
         mote_traits traits = method->traits(values);
         assert_int_equal(traits.needs_vertices, cases[i].needs);
         assert_int_equal(traits.given_vertices, cases[i].given);

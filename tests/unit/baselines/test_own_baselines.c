@@ -1,5 +1,6 @@
 /* Our own baselines against a plain double loop over all pairs of triangles. */
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 /* A method with parameters as text. */
@@ -28,13 +29,8 @@ typedef struct instance {
 static mote_status try_create(const variant *v, mote_setup setup, instance *made)
 {
     double values[MOTE_PARAMETERS_MAX];
-    made->method = mote_method_find(v->method);
+    made->method = method_with(v->method, v->options, values);
     made->state = NULL;
-    assert_non_null(made->method);
-    mote_parameters_default(made->method->parameters, made->method->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(made->method->parameters,
-                                           made->method->parameter_count, v->options, values),
-                     MOTE_OK);
     setup.values = values;
     return made->method->create(&setup, &made->state);
 }

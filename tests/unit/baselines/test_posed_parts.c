@@ -2,6 +2,7 @@
    not. */
 #include "core/skin/skin.h"
 #include "tests/support/skin_scene.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 static const char *const searches[] = {"search=fcl", "search=certified", "search=fcl,seed=none",
@@ -10,12 +11,8 @@ static const char *const searches[] = {"search=fcl", "search=certified", "search
 /* The method, built for a setup; NULL when it refuses, with the reason in mote_error_text. */
 static void *built(const char *search, mote_setup setup)
 {
-    const mote_method *m = mote_method_find("posed-parts");
-    assert_non_null(m);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, search, values),
-                     MOTE_OK);
+    const mote_method *m = method_with("posed-parts", search, values);
     setup.values = values;
     void *state = NULL;
     const mote_status status = mote_method_create(m, &setup, &state);

@@ -1,6 +1,7 @@
 /* Field kinds named in scenarios. */
 #include "core/body/field_maker.h"
 #include "harness/scene/scenario.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -79,10 +80,8 @@ TEST(stretch_gradient_is_the_slope_between_vertices)
 /* The distance that a method with default parameters gives at a frame. */
 static double ask(const char *name, const mote_scenario *s, const mote_frame *frame)
 {
-    const mote_method *method = mote_method_find(name);
-    assert_non_null(method);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(method->parameters, method->parameter_count, values);
+    const mote_method *method = method_with(name, "", values);
     const mote_setup setup = {.body = {&s->body[0], &s->body[1]},
                               .length = s->length,
                               .ask = MOTE_ASK_DISTANCE,

@@ -14,11 +14,7 @@ TEST(mote_path_line_constant_speed)
     const mote_path path = {.pieces = &piece, .count = 1};
     uint64_t seed = 1;
     test_body body;
-    solid s = solid_tetrahedron();
-    mote_mesh *mesh = NULL;
-    assert_int_equal(mote_mesh_create(s.xyz, 4, s.faces, 4, &mesh), MOTE_OK);
-    solid_free(&s);
-    test_body_init(&body, mesh, 0, &seed);
+    test_body_init(&body, solid_to_mesh(solid_tetrahedron()), 0, &seed);
     for (int i = 0; i <= 8; ++i) {
         mote_body_state state;
         mote_path_state(&path, &body.body, i / 8.0, NULL, &state);
@@ -69,12 +65,7 @@ TEST(mote_path_state_weights_turn_with_the_body)
 {
     uint64_t seed = 3;
     test_body body;
-    solid s = solid_icosphere(1);
-    mote_mesh *mesh = NULL;
-    assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
-                     MOTE_OK);
-    solid_free(&s);
-    test_body_init(&body, mesh, 3, &seed);
+    test_body_init(&body, solid_to_mesh(solid_icosphere(1)), 3, &seed);
     const size_t padded = body.field->padded;
     double *control = calloc(12 * padded, sizeof *control);
     double *weights = calloc(3 * padded, sizeof *weights);
@@ -104,12 +95,7 @@ TEST(mote_path_velocity_is_the_derivative)
 {
     uint64_t seed = 5;
     test_body body;
-    solid s = solid_icosphere(1);
-    mote_mesh *mesh = NULL;
-    assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
-                     MOTE_OK);
-    solid_free(&s);
-    test_body_init(&body, mesh, 3, &seed);
+    test_body_init(&body, solid_to_mesh(solid_icosphere(1)), 3, &seed);
     const size_t padded = body.field->padded;
     double *numbers = calloc(15 * padded, sizeof *numbers), *control = numbers + 3 * padded;
     for (size_t i = 0; i < 12 * padded; ++i)

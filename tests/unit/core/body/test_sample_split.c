@@ -2,6 +2,7 @@
    the sample pose. */
 #include "core/body/sample_split.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 enum { SIDE = 24, SHEET = SIDE * SIDE, SQUARES = (SIDE - 1) * (SIDE - 1) };
@@ -92,11 +93,8 @@ static void sheets_free(sheets *s)
 
 static mote_answer ask(sheets *s, const char *name, const char *options)
 {
-    const mote_method *m = mote_method_find(name);
     double values[MOTE_PARAMETERS_MAX];
-    mote_parameters_default(m->parameters, m->parameter_count, values);
-    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
-                     MOTE_OK);
+    const mote_method *m = method_with(name, options, values);
     const mote_setup setup = {.body = {&s->body, &s->body},
                               .length = s->mesh->diagonal,
                               .ask = MOTE_ASK_DISTANCE,

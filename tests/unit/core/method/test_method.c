@@ -1,5 +1,6 @@
 /* Defaults for the functions that a method leaves out. */
 #include "core/method/method.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -36,10 +37,8 @@ TEST(method_traits_without_them_are_none)
 
 TEST(method_functions_of_its_own_are_used)
 {
-    const mote_method *method = mote_method_find("certified");
     double values[MOTE_PARAMETERS_MAX];
-    assert_non_null(method);
-    mote_parameters_default(method->parameters, method->parameter_count, values);
+    const mote_method *method = method_with("certified", "", values);
     assert_true(mote_method_traits(method, values).exact);
     mote_method_destroy(method, NULL);
 }

@@ -5,6 +5,7 @@
 #include "datasets/letter.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stdio.h>
@@ -19,12 +20,7 @@ typedef struct subject {
 static void subject_init(subject *u, const char *name, const char *keys,
                          const mote_setup *setup)
 {
-    u->method = mote_method_find(name);
-    assert_non_null(u->method);
-    mote_parameters_default(u->method->parameters, u->method->parameter_count, u->values);
-    if (mote_parameters_parse(u->method->parameters, u->method->parameter_count, keys,
-                              u->values) != MOTE_OK)
-        fail_msg("%s", mote_error_text());
+    u->method = method_with(name, keys, u->values);
     u->setup = *setup;
     u->setup.values = u->values;
     assert_int_equal(mote_method_create(u->method, &u->setup, &u->state), MOTE_OK);
@@ -195,14 +191,10 @@ TEST(certified_claims_to_be_exact_where_nothing_ends_it)
         const char *keys;
         bool exact;
     } cases[] = {{"", true}, {"slack=1e-6", false}, {"budget=100", false}, {"seed=none", true}};
-    const mote_method *m = mote_method_find("certified");
     for (int k = 0; k < 4; ++k) {
         double values[MOTE_PARAMETERS_MAX];
-        mote_parameters_default(m->parameters, m->parameter_count, values);
-        assert_int_equal(
-            mote_parameters_parse(m->parameters, m->parameter_count, cases[k].keys, values),
-            MOTE_OK);
-        const mote_traits t = mote_method_traits(m, values);
+        const mote_traits t =
+            mote_method_traits(method_with("certified", cases[k].keys, values), values);
         assert_int_equal(t.exact, cases[k].exact);
         assert_int_equal(t.keeps_state, k != 3);
     }

@@ -3,6 +3,7 @@
 #include "core/method/method.h"
 
 #include "tests/support/particle_scene.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 typedef struct paper_run {
@@ -16,12 +17,7 @@ typedef struct paper_run {
 static mote_status try_run(paper_run *r, const particle_scene *s, const char *parameters)
 {
     memset(r, 0, sizeof *r);
-    r->method = mote_method_find("particle-paper");
-    assert_non_null(r->method);
-    const size_t count = r->method->parameter_count;
-    mote_parameters_default(r->method->parameters, count, r->values);
-    if (mote_parameters_parse(r->method->parameters, count, parameters, r->values) != MOTE_OK)
-        fail_msg("%s", mote_error_text());
+    r->method = method_with("particle-paper", parameters, r->values);
     r->setup = (mote_setup){.body = {s->bodies[0], s->bodies[1]},
                             .length = s->length,
                             .ask = MOTE_ASK_DISTANCE,

@@ -3,6 +3,7 @@
 #include "datasets/letter.h"
 #include "harness/base/heap_count.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -16,12 +17,7 @@ typedef struct subject {
 static void subject_init(subject *u, const scene *s, mote_ask ask, double tolerance,
                          const char *parameters)
 {
-    u->method = mote_method_find("particle");
-    assert_non_null(u->method);
-    mote_parameters_default(u->method->parameters, u->method->parameter_count, u->values);
-    assert_int_equal(mote_parameters_parse(u->method->parameters, u->method->parameter_count,
-                                           parameters, u->values),
-                     MOTE_OK);
+    u->method = method_with("particle", parameters, u->values);
     const mote_setup setup = scene_setup(s, ask, tolerance, u->values);
     assert_int_equal(u->method->create(&setup, &u->state), MOTE_OK);
 }

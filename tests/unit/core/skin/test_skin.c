@@ -8,6 +8,7 @@
 #include "core/body/field_kinds.h"
 #include "core/body/lazy.h"
 #include "tests/support/skin_scene.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 static mote_certificate *certificate_of(const scene *s)
@@ -349,10 +350,9 @@ TEST(other_methods_answer_for_skins)
     skinned k;
     skinned_init(&k, 30, 14, (skin_plan){9, 3, 5});
     void *state[3];
-    double values[3][64];
+    double values[3][MOTE_PARAMETERS_MAX];
     for (int i = 0; i < 3; ++i) {
-        const mote_method *method = mote_method_find(names[i]);
-        mote_parameters_default(method->parameters, method->parameter_count, values[i]);
+        const mote_method *method = method_with(names[i], "", values[i]);
         const mote_setup setup = {.body = {&k.s.body[0], &k.s.body[1]},
                                   .length = k.s.length,
                                   .ask = MOTE_ASK_DISTANCE,

@@ -1,6 +1,7 @@
 /* The methods stream and auto through the interface. */
 #include "core/method/method.h"
 #include "tests/support/shapes.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 #include <stdio.h>
@@ -14,12 +15,7 @@ typedef struct subject {
 static void subject_init(subject *u, const scene *s, const char *name, const char *keys,
                          mote_ask ask, double tolerance)
 {
-    u->method = mote_method_find(name);
-    assert_non_null(u->method);
-    mote_parameters_default(u->method->parameters, u->method->parameter_count, u->values);
-    assert_int_equal(mote_parameters_parse(u->method->parameters, u->method->parameter_count,
-                                           keys, u->values),
-                     MOTE_OK);
+    u->method = method_with(name, keys, u->values);
     const mote_setup setup = scene_setup(s, ask, tolerance, u->values);
     assert_int_equal(mote_method_create(u->method, &setup, &u->state), MOTE_OK);
 }
