@@ -51,11 +51,7 @@ static void *create(const char *options, const scene *s, mote_ask ask, double to
 
 static mote_answer answer(void *state, const mote_frame *frame)
 {
-    const mote_method *m = mote_method_find("ccd-convex");
-    mote_answer result = {0};
-    assert_int_equal(m->update(state, frame), MOTE_OK);
-    assert_int_equal(m->query(state, frame, &result), MOTE_OK);
-    return result;
+    return method_answer(mote_method_find("ccd-convex"), state, frame);
 }
 
 static void destroy(void *state)

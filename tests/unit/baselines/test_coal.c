@@ -54,11 +54,7 @@ static mote_status make(const variant *v, const scene *s, mote_ask ask, double t
 
 static mote_answer ask_one(const variant *v, void *state, const mote_frame *frame)
 {
-    const mote_method *m = mote_method_find(v->method);
-    mote_answer answer = {0};
-    assert_int_equal(m->update(state, frame), MOTE_OK);
-    assert_int_equal(m->query(state, frame, &answer), MOTE_OK);
-    return answer;
+    return method_answer(mote_method_find(v->method), state, frame);
 }
 
 static void expect_distances(const variant *v, double size, bool deforming)

@@ -32,11 +32,7 @@ static void *create(const char *name, const char *options, const scene *s, mote_
 
 static mote_answer answer(const char *name, void *state, const mote_frame *frame)
 {
-    const mote_method *m = mote_method_find(name);
-    mote_answer result = {0};
-    assert_int_equal(m->update(state, frame), MOTE_OK);
-    assert_int_equal(m->query(state, frame, &result), MOTE_OK);
-    return result;
+    return method_answer(mote_method_find(name), state, frame);
 }
 
 /* In how many of `frames` random poses without deformation is a method wrong? For a contact

@@ -40,11 +40,7 @@ static mote_status try_create(const variant *v, const mote_setup *setup_without_
 
 static mote_answer answer(const variant *v, void *state, const mote_frame *frame)
 {
-    const mote_method *method = mote_method_find(v->method);
-    mote_answer result = {0};
-    assert_int_equal(method->update(state, frame), MOTE_OK);
-    assert_int_equal(method->query(state, frame, &result), MOTE_OK);
-    return result;
+    return method_answer(mote_method_find(v->method), state, frame);
 }
 
 static const variant distance_variants[] = {

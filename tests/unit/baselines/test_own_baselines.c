@@ -44,10 +44,7 @@ static instance create(const variant *v, mote_setup setup)
 
 static mote_answer ask(const instance *i, const mote_frame *frame)
 {
-    mote_answer answer = {0};
-    assert_int_equal(i->method->update(i->state, frame), MOTE_OK);
-    assert_int_equal(i->method->query(i->state, frame, &answer), MOTE_OK);
-    return answer;
+    return method_answer(i->method, i->state, frame);
 }
 
 static void check_distance(const variant *v, const scene *s, const mote_answer *a,

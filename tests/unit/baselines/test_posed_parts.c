@@ -22,10 +22,7 @@ static void *built(const char *search, mote_setup setup)
 
 static mote_answer ask(void *state, const mote_frame *frame)
 {
-    const mote_method *m = mote_method_find("posed-parts");
-    mote_answer answer = {0};
-    assert_int_equal(m->update(state, frame), MOTE_OK);
-    assert_int_equal(m->query(state, frame, &answer), MOTE_OK);
+    const mote_answer answer = method_answer(mote_method_find("posed-parts"), state, frame);
     assert_false(answer.has_lower);
     return answer;
 }

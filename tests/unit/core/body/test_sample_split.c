@@ -100,10 +100,8 @@ static mote_answer ask(sheets *s, const char *name, const char *options)
                               .ask = MOTE_ASK_DISTANCE,
                               .values = values};
     void *state = NULL;
-    mote_answer answer = {0};
     assert_int_equal(mote_method_create(m, &setup, &state), MOTE_OK);
-    assert_int_equal(m->update(state, &s->frame), MOTE_OK);
-    assert_int_equal(m->query(state, &s->frame, &answer), MOTE_OK);
+    const mote_answer answer = method_answer(m, state, &s->frame);
     mote_method_destroy(m, state);
     return answer;
 }

@@ -10,34 +10,6 @@
 
 #include <stdio.h>
 
-typedef struct subject {
-    const mote_method *method;
-    double values[MOTE_PARAMETERS_MAX];
-    mote_setup setup;
-    void *state;
-} subject;
-
-static void subject_init(subject *u, const char *name, const char *keys,
-                         const mote_setup *setup)
-{
-    u->method = method_with(name, keys, u->values);
-    u->setup = *setup;
-    u->setup.values = u->values;
-    assert_int_equal(mote_method_create(u->method, &u->setup, &u->state), MOTE_OK);
-}
-
-static void subject_free(subject *u)
-{
-    mote_method_destroy(u->method, u->state);
-}
-
-static mote_answer ask(subject *u, const mote_frame *frame)
-{
-    mote_answer answer = {0};
-    assert_int_equal(u->method->query(u->state, frame, &answer), MOTE_OK);
-    return answer;
-}
-
 static mote_mesh *letter(char name, size_t triangles)
 {
     mote_mesh *mesh = NULL;
@@ -59,18 +31,18 @@ static uint32_t parts_of(const mote_mesh *mesh)
 static void check_same(scene *s, const char *name, const char *keys, const char *spelled_out)
 {
     mote_setup setup = scene_setup(s, MOTE_ASK_DISTANCE, 0, NULL);
-    subject by_itself, told;
-    subject_init(&by_itself, name, keys, &setup);
+    method_run by_itself, told;
+    method_run_init(&by_itself, name, keys, setup);
     setup.seed = 99; /* no method uses it here */
-    subject_init(&told, name, spelled_out, &setup);
+    method_run_init(&told, name, spelled_out, setup);
     for (int k = 0; k < 6; ++k) {
         const mote_frame *frame = scene_next(s, 1.2, false);
-        const mote_answer a = ask(&by_itself, frame);
-        const mote_answer b = ask(&told, frame);
+        const mote_answer a = method_run_ask(&by_itself, frame);
+        const mote_answer b = method_run_ask(&told, frame);
         assert_memory_equal(&a, &b, sizeof a);
     }
-    subject_free(&by_itself);
-    subject_free(&told);
+    method_run_free(&by_itself);
+    method_run_free(&told);
 }
 
 typedef struct pair {
@@ -130,17 +102,17 @@ TEST(far_cache_without_coherence_answers_the_same_again)
     scene s;
     scene_init(&s, 20, 10, 1, true);
     const mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);
-    subject u;
-    subject_init(&u, "particle-paper", "n=20,far_cache=0.5,coherent=no", &setup);
+    method_run u;
+    method_run_init(&u, "particle-paper", "n=20,far_cache=0.5,coherent=no", setup);
     const mote_frame first = *scene_next(&s, 1.2, true);
-    const mote_answer a = ask(&u, &first);
+    const mote_answer a = method_run_ask(&u, &first);
     const mote_frame second = *scene_next(&s, 1.2, true);
-    const mote_answer b = ask(&u, &second);
-    const mote_answer again = ask(&u, &first);
+    const mote_answer b = method_run_ask(&u, &second);
+    const mote_answer again = method_run_ask(&u, &first);
     assert_memory_equal(&a, &again, sizeof a);
     assert_true(a.distance != b.distance);
     assert_true(a.counters.moves > 0);
-    subject_free(&u);
+    method_run_free(&u);
     scene_free(&s);
 }
 
@@ -156,17 +128,17 @@ TEST(certified_contact_question_says_what_it_knows)
     scene_init(&s, 20, 10, 1, true);
     const double tolerance = 0.05 * s.length;
     const mote_setup setup = scene_setup(&s, MOTE_ASK_CONTACT, tolerance, NULL);
-    subject u[4];
+    method_run u[4];
     int open[4] = {0}, contacts = 0, apart = 0;
     for (int i = 0; i < 4; ++i)
-        subject_init(&u[i], "certified", cases[i].keys, &setup);
+        method_run_init(&u[i], "certified", cases[i].keys, setup);
     for (int k = 0; k < 60; ++k) {
         const mote_frame *frame = scene_next(&s, 1.5, false);
         const bool truth = scene_distance(&s) <= tolerance;
         contacts += truth;
         apart += !truth;
         for (int i = 0; i < 4; ++i) {
-            const mote_answer a = ask(&u[i], frame);
+            const mote_answer a = method_run_ask(&u[i], frame);
             open[i] += !a.has_contact;
             assert_false(a.has_distance);
             assert_true(a.has_lower && a.lower <= a.distance);
@@ -180,7 +152,7 @@ TEST(certified_contact_question_says_what_it_knows)
     assert_int_equal(open[0] + open[1], 0);
     assert_true(open[2] > 0 && open[3] > 0);
     for (int i = 0; i < 4; ++i)
-        subject_free(&u[i]);
+        method_run_free(&u[i]);
     scene_free(&s);
 }
 

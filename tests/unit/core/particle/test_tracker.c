@@ -8,30 +8,10 @@
 
 #include <stddef.h>
 
-typedef struct subject {
-    const mote_method *method;
-    double values[MOTE_PARAMETERS_MAX];
-    void *state;
-} subject;
-
-static void subject_init(subject *u, const scene *s, mote_ask ask, double tolerance,
+static void tracker_init(method_run *u, const scene *s, mote_ask ask, double tolerance,
                          const char *parameters)
 {
-    u->method = method_with("particle", parameters, u->values);
-    const mote_setup setup = scene_setup(s, ask, tolerance, u->values);
-    assert_int_equal(u->method->create(&setup, &u->state), MOTE_OK);
-}
-
-static mote_answer ask(subject *u, const mote_frame *frame)
-{
-    mote_answer answer = {0};
-    assert_int_equal(u->method->query(u->state, frame, &answer), MOTE_OK);
-    return answer;
-}
-
-static void subject_free(subject *u)
-{
-    u->method->destroy(u->state);
+    method_run_init(u, "particle", parameters, scene_setup(s, ask, tolerance, NULL));
 }
 
 /* A smooth motion: both bodies turn, body 1 approaches and recedes, the shapes oscillate. */
@@ -73,17 +53,17 @@ static void assert_answer(const scene *s, const mote_answer *a, double truth)
 /* Runs frames and returns the share of exact ones. */
 static double run(scene *s, const char *parameters, int frames, bool smooth)
 {
-    subject u;
+    method_run u;
     int exact = 0;
-    subject_init(&u, s, MOTE_ASK_DISTANCE, 0, parameters);
+    tracker_init(&u, s, MOTE_ASK_DISTANCE, 0, parameters);
     for (int i = 0; i < frames; ++i) {
         const mote_frame *frame = smooth ? smooth_frame(s, 0.6) : scene_next(s, 1.2, false);
-        const mote_answer a = ask(&u, frame);
+        const mote_answer a = method_run_ask(&u, frame);
         const double truth = scene_distance(s);
         assert_answer(s, &a, truth);
         exact += a.distance <= truth + 1e-9 * s->length;
     }
-    subject_free(&u);
+    method_run_free(&u);
     return exact / (double)frames;
 }
 
@@ -136,21 +116,21 @@ TEST(query_after_teleport_as_good_as_new)
 {
     scene s;
     scene_init(&s, 24, 12, 1, true);
-    subject old;
-    subject_init(&old, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
+    method_run old;
+    tracker_init(&old, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
     for (int jump = 0; jump < 60; ++jump) {
         for (int i = 0; i < 5; ++i)
-            ask(&old, smooth_frame(&s, 0.6));
-        subject fresh;
-        subject_init(&fresh, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
+            method_run_ask(&old, smooth_frame(&s, 0.6));
+        method_run fresh;
+        tracker_init(&fresh, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
         const mote_frame *frame = scene_next(&s, 1.2, false);
-        const mote_answer a = ask(&old, frame);
-        const mote_answer b = ask(&fresh, frame);
+        const mote_answer a = method_run_ask(&old, frame);
+        const mote_answer b = method_run_ask(&fresh, frame);
         assert_true(a.distance <= b.distance + 1e-12 * s.length);
         assert_true(a.distance == 0 || a.counters.launches >= 16);
-        subject_free(&fresh);
+        method_run_free(&fresh);
     }
-    subject_free(&old);
+    method_run_free(&old);
     scene_free(&s);
 }
 
@@ -160,12 +140,12 @@ TEST(query_same_frames_same_bits)
     for (int round = 0; round < 2; ++round) {
         scene s;
         scene_init(&s, 24, 12, 1, true);
-        subject u;
-        subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+        method_run u;
+        tracker_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
         for (int i = 0; i < 40; ++i)
             answers[round][i] =
-                ask(&u, i % 7 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false));
-        subject_free(&u);
+                method_run_ask(&u, i % 7 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false));
+        method_run_free(&u);
         scene_free(&s);
     }
     assert_memory_equal(answers[0], answers[1], sizeof answers[0]);
@@ -176,15 +156,15 @@ TEST(contact_question_as_the_distance_says)
     scene s;
     scene_init(&s, 120, 40, 1, true);
     const double tolerance = 0.02 * s.length;
-    subject distance, contact;
-    subject_init(&distance, &s, MOTE_ASK_DISTANCE, tolerance, "n=8,launch=8");
-    subject_init(&contact, &s, MOTE_ASK_CONTACT, tolerance, "n=8,launch=8");
+    method_run distance, contact;
+    tracker_init(&distance, &s, MOTE_ASK_DISTANCE, tolerance, "n=8,launch=8");
+    tracker_init(&contact, &s, MOTE_ASK_CONTACT, tolerance, "n=8,launch=8");
     int contacts = 0;
     uint64_t checks[2] = {0}; /* exact checks in frames without contact */
     for (int i = 0; i < 200; ++i) {
         const mote_frame *frame = smooth_frame(&s, 0.7);
-        const mote_answer a = ask(&distance, frame);
-        const mote_answer b = ask(&contact, frame);
+        const mote_answer a = method_run_ask(&distance, frame);
+        const mote_answer b = method_run_ask(&contact, frame);
         assert_true(b.has_contact && !b.has_distance && !b.has_witness);
         assert_true(b.contact == a.contact);
         contacts += b.contact;
@@ -195,8 +175,8 @@ TEST(contact_question_as_the_distance_says)
     }
     assert_in_range(contacts, 20, 180);
     assert_true(2 * checks[1] < checks[0]);
-    subject_free(&distance);
-    subject_free(&contact);
+    method_run_free(&distance);
+    method_run_free(&contact);
     scene_free(&s);
 }
 
@@ -204,18 +184,18 @@ TEST(query_warm_no_allocation)
 {
     scene s;
     scene_init(&s, 60, 24, 1, true);
-    subject u;
-    subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+    method_run u;
+    tracker_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
     uint64_t before = 0;
     for (int i = 0; i < 300; ++i) {
         const mote_frame *frame = smooth_frame(&s, 0.5);
         if (i == 50)
             before = mote_heap_read().allocations;
-        ask(&u, frame);
+        method_run_ask(&u, frame);
     }
     if (mote_heap_read().counted)
         assert_true(mote_heap_read().allocations == before);
-    subject_free(&u);
+    method_run_free(&u);
     scene_free(&s);
 }
 
@@ -247,22 +227,22 @@ TEST(query_scaled_by_powers_of_two_same_bits)
         scene s, t;
         scene_init(&s, 24, 12, 1, true);
         scene_init(&t, 24, 12, factor, true);
-        subject u, v;
-        subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
-        subject_init(&v, &t, MOTE_ASK_DISTANCE, 0, "n=8");
+        method_run u, v;
+        tracker_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+        tracker_init(&v, &t, MOTE_ASK_DISTANCE, 0, "n=8");
         for (int i = 0; i < 40; ++i) {
             double weights[2][3][MOTE_FIELD_SUMMED];
             const mote_frame *frame = i % 9 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false);
             const mote_frame scaled = scaled_frame(frame, factor, weights);
-            const mote_answer a = ask(&u, frame);
-            mote_answer b = ask(&v, &scaled);
+            const mote_answer a = method_run_ask(&u, frame);
+            mote_answer b = method_run_ask(&v, &scaled);
             b.distance /= factor;
             b.witness[0] = mote_scale(b.witness[0], 1 / factor);
             b.witness[1] = mote_scale(b.witness[1], 1 / factor);
             assert_memory_equal(&a, &b, sizeof a);
         }
-        subject_free(&u);
-        subject_free(&v);
+        method_run_free(&u);
+        method_run_free(&v);
         scene_free(&s);
         scene_free(&t);
     }
@@ -274,13 +254,13 @@ TEST(particles_after_query_are_vertices_nearest_first)
 {
     scene s;
     scene_init(&s, 24, 12, 1, true);
-    subject u;
-    subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8,track=5");
+    method_run u;
+    tracker_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8,track=5");
     mote_vec3 p[2][6], none = mote_vec3_make(7, 7, 7);
     assert_int_equal(u.method->particles(u.state, 0, p[0], 6), 0);
     size_t most = 0;
     for (int i = 0; i < 60; ++i) {
-        const mote_answer a = ask(&u, smooth_frame(&s, 0.6));
+        const mote_answer a = method_run_ask(&u, smooth_frame(&s, 0.6));
         const size_t count = u.method->particles(u.state, 0, p[0], 6);
         assert_in_range(count, 1, 6);
         assert_int_equal(u.method->particles(u.state, 1, p[1], 6), count);
@@ -312,7 +292,7 @@ TEST(particles_after_query_are_vertices_nearest_first)
     p[0][0] = none;
     assert_true(u.method->particles(u.state, 0, p[0], 0) >= 1);
     assert_memory_equal(&p[0][0], &none, sizeof none);
-    subject_free(&u);
+    method_run_free(&u);
     scene_free(&s);
 }
 
@@ -321,19 +301,19 @@ TEST(forces_without_seeds_change_nothing)
 {
     scene s;
     scene_init(&s, 24, 12, 1, true);
-    subject with, without;
-    subject_init(&with, &s, MOTE_ASK_DISTANCE, 0, "n=0,forces=on");
-    subject_init(&without, &s, MOTE_ASK_DISTANCE, 0, "n=0");
+    method_run with, without;
+    tracker_init(&with, &s, MOTE_ASK_DISTANCE, 0, "n=0,forces=on");
+    tracker_init(&without, &s, MOTE_ASK_DISTANCE, 0, "n=0");
     for (int i = 0; i < 20; ++i) {
         const mote_frame *frame = smooth_frame(&s, 0.6);
-        const mote_answer a = ask(&with, frame);
-        const mote_answer b = ask(&without, frame);
+        const mote_answer a = method_run_ask(&with, frame);
+        const mote_answer b = method_run_ask(&without, frame);
         assert_true(a.distance == b.distance);
         assert_int_equal(a.counters.positions, b.counters.positions);
         assert_int_equal(a.counters.steps, 0);
     }
-    subject_free(&with);
-    subject_free(&without);
+    method_run_free(&with);
+    method_run_free(&without);
     scene_free(&s);
 }
 

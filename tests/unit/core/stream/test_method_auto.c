@@ -6,28 +6,6 @@
 
 #include <stdio.h>
 
-typedef struct subject {
-    const mote_method *method;
-    double values[MOTE_PARAMETERS_MAX];
-    void *state;
-} subject;
-
-static void subject_init(subject *u, const scene *s, const char *name, const char *keys,
-                         mote_ask ask, double tolerance)
-{
-    u->method = method_with(name, keys, u->values);
-    const mote_setup setup = scene_setup(s, ask, tolerance, u->values);
-    assert_int_equal(mote_method_create(u->method, &setup, &u->state), MOTE_OK);
-}
-
-static mote_answer answer_of(subject *u, const mote_frame *frame)
-{
-    mote_answer answer = {0};
-    if (u->method->query(u->state, frame, &answer) != MOTE_OK)
-        fail_msg("%s", mote_error_text());
-    return answer;
-}
-
 /* Deforms more strongly than boxes of the rest tree can follow. */
 static void bend_hard(scene *s, double size)
 {
@@ -49,9 +27,9 @@ TEST(stream_and_auto_equal_all_pairs)
     for (int contact = 0; contact < 2; ++contact) {
         const double tolerance = 0.03 * s.length;
         const mote_ask ask = contact ? MOTE_ASK_CONTACT : MOTE_ASK_DISTANCE;
-        subject u[3];
+        method_run u[3];
         for (int i = 0; i < 3; ++i)
-            subject_init(&u[i], &s, names[i], keys[i], ask, tolerance);
+            method_run_init(&u[i], names[i], keys[i], scene_setup(&s, ask, tolerance, NULL));
         for (int k = 0; k < 90; ++k) {
             scene_next(&s, 1.4, false);
             if (k >= 30 && k < 60)
@@ -59,7 +37,7 @@ TEST(stream_and_auto_equal_all_pairs)
             const double truth = scene_distance(&s);
             for (int i = 0; i < 3; ++i) {
                 test_row("%s:%s frame %d", names[i], keys[i], k);
-                const mote_answer a = answer_of(&u[i], &s.frame);
+                const mote_answer a = method_run_ask(&u[i], &s.frame);
                 assert_true(a.has_contact);
                 assert_int_equal(a.contact, truth <= tolerance);
                 assert_true(a.has_lower && a.lower <= truth);
@@ -85,8 +63,8 @@ static void gentle_then_hard(double size, int *streamed)
 {
     scene s;
     scene_init(&s, 60, 30, 1, true);
-    subject u;
-    subject_init(&u, &s, "auto", "positions=given", MOTE_ASK_DISTANCE, 0);
+    method_run u;
+    method_run_init(&u, "auto", "positions=given", scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL));
     scene_next(&s, 1.4, false);
     *streamed = 0;
     for (int k = 0; k < 120; ++k) {
@@ -97,7 +75,7 @@ static void gentle_then_hard(double size, int *streamed)
             memset(s.weights[b], 0, sizeof s.weights[b]);
         }
         bend_hard(&s, size);
-        const mote_answer a = answer_of(&u, &s.frame);
+        const mote_answer a = method_run_ask(&u, &s.frame);
         *streamed += was_streamed(&s, &a);
     }
     mote_method_destroy(u.method, u.state);
@@ -117,13 +95,13 @@ TEST(auto_where_nothing_changes_repeats_its_answer)
 {
     scene s;
     scene_init(&s, 14, 9, 1, true);
-    subject u;
-    subject_init(&u, &s, "auto", "", MOTE_ASK_DISTANCE, 0);
+    method_run u;
+    method_run_init(&u, "auto", "", scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL));
     scene_next(&s, 1.4, false);
-    const mote_answer first = answer_of(&u, &s.frame);
+    const mote_answer first = method_run_ask(&u, &s.frame);
     for (int b = 0; b < 2; ++b)
         s.frame.body[b].shape_changed = s.frame.body[b].pose_changed = false;
-    const mote_answer second = answer_of(&u, &s.frame);
+    const mote_answer second = method_run_ask(&u, &s.frame);
     assert_true(second.distance == first.distance && second.lower == first.lower);
     assert_int_equal(second.counters.box_tests, 0);
     mote_method_destroy(u.method, u.state);
@@ -139,13 +117,13 @@ TEST(auto_without_a_field_streams)
     assert_int_equal(mote_field_create_given(&given), MOTE_OK);
     scene told = s; /* the same bodies, one without a known field */
     told.body[0].field = given;
-    subject u;
-    subject_init(&u, &told, "auto", "", MOTE_ASK_DISTANCE, 0);
+    method_run u;
+    method_run_init(&u, "auto", "", scene_setup(&told, MOTE_ASK_DISTANCE, 0, NULL));
     for (int k = 0; k < 10; ++k) {
         scene_next(&s, 1.4, false);
         mote_frame frame = s.frame;
         frame.body[1].vertices = NULL;
-        const mote_answer a = answer_of(&u, &frame);
+        const mote_answer a = method_run_ask(&u, &frame);
         assert_true(was_streamed(&s, &a) || !(a.distance > 0));
         assert_true(fabs(a.distance - scene_distance(&s)) <= 1e-12 * s.length);
     }
@@ -158,8 +136,8 @@ TEST(stream_without_positions_says_so)
 {
     scene s;
     scene_init(&s, 14, 9, 1, true);
-    subject u;
-    subject_init(&u, &s, "stream", "", MOTE_ASK_DISTANCE, 0);
+    method_run u;
+    method_run_init(&u, "stream", "", scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL));
     mote_frame frame = *scene_next(&s, 1.4, false);
     frame.body[1].vertices = NULL;
     mote_answer a = {0};
