@@ -68,8 +68,11 @@ static mote_status create_method(size_t k, const mote_setup *setup, void **state
     const mote_status status = load(s, &item);
     if (status != MOTE_OK)
         return status;
-    /* From here on the method is called like a built-in one. */
+    /* From here on the method is called like a built-in one. The table of parameters stays the
+       offer's: the values were read by it, and nothing else points to its memory. */
+    const mote_parameter *parameters = s->method.parameters;
     s->method = *(const mote_method *)item;
+    s->method.parameters = parameters;
     return mote_method_create(&s->method, setup, state);
 }
 

@@ -305,8 +305,9 @@ mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenari
     mote_json root = mote_json_root(&file);
     mote_json bodies = mote_json_member(&root, "bodies");
     if (mote_scenario_of_bodies(&file))
-        status = mote_json_fail(&bodies, "several bodies, where two are needed; `mote list` "
-                                         "names scenarios, most of them of two");
+        status =
+            mote_json_fail(&bodies, "several bodies, where two are needed; name a scenario "
+                                    "of two bodies");
     else
         status = mote_scenario_read(&file, scenario);
     mote_json_close(&file);

@@ -58,13 +58,10 @@ static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_fr
 {
     double xyz[3];
     for (int i = 0; i < 3; ++i) {
-        const char *end;
         at = mote_mesh_next_word(reader, at);
-        if (mote_is_end(*at))
-            return mote_fail(MOTE_EINVAL,
-                             "%s:%zu: a vertex without three numbers; write v x y z",
-                             reader->path, reader->line);
-        xyz[i] = read_number(at, &end);
+        const char *end = at;
+        if (!mote_is_end(*at))
+            xyz[i] = read_number(at, &end);
         if (end == at || !mote_mesh_word_ends(reader, end))
             return mote_fail(MOTE_EINVAL,
                              "%s:%zu: a vertex without three numbers; write v x y z",
