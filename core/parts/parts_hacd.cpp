@@ -6,6 +6,8 @@
 #include <cmath>
 #include <csignal>
 #include <new>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -129,6 +131,11 @@ bool write_all(int file, const void *bytes, size_t size)
     _exit(0);
 }
 
+[[noreturn]] void fail(const char *what, int why)
+{
+    throw std::runtime_error(std::string(what) + ": " + std::generic_category().message(why));
+}
+
 /* A child and the pipe from it; both end with this. */
 class Child
 {
@@ -152,8 +159,7 @@ Child::Child(std::vector<Problem> &problems, size_t first, double seconds)
 {
     int ends[2];
     if (pipe(ends) != 0)
-        throw std::system_error(errno, std::generic_category(),
-                                "no pipe to a process for HACD");
+        fail("no pipe to a process for HACD", errno);
     for (int end : ends)
         (void)fcntl(end, F_SETFD, FD_CLOEXEC);
     process = fork();
@@ -166,7 +172,7 @@ Child::Child(std::vector<Problem> &problems, size_t first, double seconds)
     answers = ends[0];
     if (process < 0) {
         (void)close(answers);
-        throw std::system_error(why, std::generic_category(), "no process for HACD");
+        fail("no process for HACD", why);
     }
 }
 

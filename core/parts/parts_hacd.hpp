@@ -12,7 +12,7 @@ namespace mote_parts_detail
    seconds of the processor for all components together, and ten times as long by the clock.
    Components that it crashed on, failed on, or had no time for keep count = 0; the others do
    not notice. The caller's signals, open files and threads stay as they are. Throws
-   std::bad_alloc also if HACD had no memory, and std::system_error if there is no process or
+   std::bad_alloc also if HACD had no memory, and std::runtime_error if there is no process or
    pipe. */
 void split_by_hacd(const std::vector<Component *> &components, double seconds);
 

@@ -5,11 +5,12 @@
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 /* The C++ ABI names of std::length_error and the type info of int, on systems whose size_t is
    an unsigned long. */
@@ -19,6 +20,25 @@ void *__cxa_allocate_exception(size_t size);
 _Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
 bool __real__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
 bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
+
+int __real_pipe(int ends[2]);
+pid_t __real_fork(void);
+int __wrap_pipe(int ends[2]);
+pid_t __wrap_fork(void);
+
+static bool is_without_pipe, is_without_fork;
+
+int __wrap_pipe(int ends[2])
+{
+    errno = EMFILE;
+    return is_without_pipe ? -1 : __real_pipe(ends);
+}
+
+pid_t __wrap_fork(void)
+{
+    errno = EAGAIN;
+    return is_without_fork ? -1 : __real_fork();
+}
 
 static enum {
     HACD_WORKS,
@@ -139,20 +159,20 @@ TEST(parts_where_children_are_ignored_are_the_same)
     mote_mesh_destroy(mesh);
 }
 
-/* With no file descriptor left there is no pipe. */
-TEST(parts_without_a_pipe_say_so)
+TEST(parts_without_a_process_say_so)
 {
+    static const char *const texts[] = {"no pipe to a process for HACD: ",
+                                        "no process for HACD: "};
     mote_mesh *mesh = solid_to_mesh(solid_torus(5, 4));
-    struct rlimit before, none;
-    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
-    none = before;
-    none.rlim_cur = 0;
-    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
-    mote_parts *parts = NULL;
-    const mote_status status = mote_parts_create(mesh, NULL, &parts);
-    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
-    assert_int_equal(status, MOTE_ENOMEM);
-    assert_null(parts);
-    assert_non_null(strstr(mote_error_text(), "no pipe to a process for HACD"));
+    for (int k = 0; k < 2; ++k) {
+        mote_parts *parts = NULL;
+        is_without_pipe = k == 0;
+        is_without_fork = k == 1;
+        assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_ENOMEM);
+        is_without_pipe = is_without_fork = false;
+        assert_null(parts);
+        assert_non_null(strstr(mote_error_text(), texts[k]));
+        assert_non_null(strstr(mote_error_text(), strerror(k == 0 ? EMFILE : EAGAIN)));
+    }
     mote_mesh_destroy(mesh);
 }
