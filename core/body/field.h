@@ -115,7 +115,11 @@ struct mote_field {
     uint32_t count;  /* J; 0 when nothing deforms */
     uint32_t padded; /* J rounded up to a multiple of MOTE_LANES */
     uint32_t most;   /* functions that may not be 0 at a vertex, at most; J unless sparse */
-    double support;  /* CSRBF: support radius, > 0 */
+    /* How many of the weights, the last ones, are numbers, in x, which do not turn with the
+       body. The three before them are then the columns of the pose's rotation. 0 but for morph
+       targets. */
+    uint32_t numbers;
+    double support; /* CSRBF: support radius, > 0 */
     /* CSRBF: centres by coordinate [padded]; the padding repeats the first, with weight 0 */
     double *centre_x, *centre_y, *centre_z;
     float *centre_single; /* CSRBF: x, y, z of the centres rounded, [3][padded] */

@@ -39,7 +39,8 @@ typedef struct mote_path_piece {
     mote_vec3 spin;          /* of a piece that spins: the whole turn, in radians, as a vector
                                 along its axis in the world, right-handed */
     const double *weights;   /* [4][3][padded] control points, coordinate by coordinate, in the
-                                body's axes, 0 in the padding; NULL: all 0 */
+                                body's axes, 0 in the padding; NULL: all 0. With morph targets
+                                as mote_morph_weights writes them for an identity rotation */
 } mote_path_piece;
 
 typedef struct mote_path {

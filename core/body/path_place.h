@@ -18,7 +18,7 @@ double mote_path_least_turn(const mote_path_piece *piece);
 
 /* What mote_path_state sets, differentiated by the local time of the place's piece and
    multiplied by factor: with this state, mote_body_position gives the velocity of a vertex,
-   times factor. */
+   times factor. Not of a body with morph targets, whose velocities have another form. */
 void mote_path_velocity(const mote_path *path, const mote_body *body, mote_place at,
                         double factor, double *weights, mote_body_state *state);
 

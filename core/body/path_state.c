@@ -97,9 +97,10 @@ double mote_path_least_turn(const mote_path_piece *piece)
     return least * (1 - 0x1p-40);
 }
 
+/* turned: how many weights are vectors, which turn with the body. */
 MOTE_CLONES
 static void weights_at(const double *restrict control, double u, const mote_mat3 *rotation,
-                       size_t padded, double *restrict out)
+                       size_t turned, size_t padded, double *restrict out)
 {
     const double v = 1 - u;
     const double b0 = v * v * v, b1 = 3 * u * v * v, b2 = 3 * u * u * v, b3 = u * u * u;
@@ -108,12 +109,21 @@ static void weights_at(const double *restrict control, double u, const mote_mat3
         out[j] = (b0 * control[j] + b1 * control[step + j]) +
                  (b2 * control[2 * step + j] + b3 * control[3 * step + j]);
     double *x = out, *y = out + padded, *z = out + 2 * padded;
-    for (size_t j = 0; j < padded; ++j) {
+    for (size_t j = 0; j < turned; ++j) {
         const mote_vec3 w = mote_rotate(rotation, mote_vec3_make(x[j], y[j], z[j]));
         x[j] = w.x;
         y[j] = w.y;
         z[j] = w.z;
     }
+}
+
+/* Weights of 0, but for the columns of the rotation that morph targets need. */
+static void no_weights(const mote_field *field, const mote_mat3 *rotation, double *weights)
+{
+    memset(weights, 0, 3 * (size_t)field->padded * sizeof *weights);
+    for (size_t r = 0; field->numbers > 0 && r < 3; ++r)
+        memcpy(weights + r * field->padded + (field->count - field->numbers - 3),
+               rotation->m[r], sizeof rotation->m[r]);
 }
 
 void mote_path_state(const mote_path *path, const mote_body *body, double time, double *weights,
@@ -131,9 +141,12 @@ void mote_path_state(const mote_path *path, const mote_body *body, double time, 
     if (padded == 0)
         return;
     if (piece->weights)
-        weights_at(piece->weights, at.u, &state->pose.rotation, padded, weights);
+        weights_at(piece->weights, at.u, &state->pose.rotation,
+                   body->field->numbers > 0 ? body->field->count - body->field->numbers
+                                            : padded,
+                   padded, weights);
     else
-        memset(weights, 0, 3 * padded * sizeof *weights);
+        no_weights(body->field, &state->pose.rotation, weights);
     state->weights.x = weights;
     state->weights.y = weights + padded;
     state->weights.z = weights + 2 * padded;

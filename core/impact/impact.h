@@ -34,8 +34,8 @@ mote_impact_options mote_default_impact_options(double length);
 
 /* Makes what queries about two bodies need: trees of both and all memory. Either may be a body
    of which only positions are given; its rest mesh decides how well its tree fits. The bodies
-   are borrowed. MOTE_EUNSUPPORTED for a field that is not linear in its weights (morph
-   targets); MOTE_EINVAL for options out of range, and
+   are borrowed. MOTE_EUNSUPPORTED for a field of your own that is not linear in
+   its weights; MOTE_EINVAL for options out of range, and
    as mote_certificate_create; MOTE_ENOMEM. Cost: as mote_certificate_create, and every function
    of the fields once at every vertex. The caller destroys *search; one thread at a time may use
    it. */
@@ -83,6 +83,7 @@ typedef struct mote_impact_found {
    reversed, a tolerance below 0 or not finite, paths without pieces, with more than the options
    say, or of different numbers; a number that is not finite; a piece that begins elsewhere than
    the one before ends; quaternions that may pass near 0; a spin above MOTE_PATH_SPIN_MAX;
+   weights of morph targets that are not in the body's axes;
    positions where the body has a field, or none where it has not; positions that cannot be
    read, or that are 10^18 L from the origin. No allocation. Of a path of positions every vertex
    is looked at in each frame, and boxes are made of the frames that the search comes to. */

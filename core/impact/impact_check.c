@@ -62,6 +62,25 @@ static mote_status check_turn(const mote_path_piece *piece, int body, uint32_t k
     return MOTE_OK;
 }
 
+/* Whether the columns of the rotation among the weights are the body's own axes, and numbers
+   are in x alone. */
+static bool has_axes(const mote_field *field, const double *weights)
+{
+    const size_t padded = field->padded, first = field->count - field->numbers;
+    for (size_t i = 0; i < 12 && field->numbers > 0; ++i) {
+        const double *row = weights + i * padded;
+        for (size_t k = 0; k < 3; ++k) {
+            if (fabs(row[first - 3 + k] - (k == i % 3 ? 1 : 0)) > 0x1p-50)
+                return false;
+        }
+        for (size_t j = first; i % 3 > 0 && j < field->count; ++j) {
+            if (fabs(row[j]) > 0)
+                return false;
+        }
+    }
+    return true;
+}
+
 static mote_status check_piece(const mote_impact_search *s, const mote_path *path, int body,
                                uint32_t k)
 {
@@ -73,6 +92,12 @@ static mote_status check_piece(const mote_impact_search *s, const mote_path *pat
     if (piece->weights && !all_finite(piece->weights, 12 * padded))
         return mote_fail(MOTE_EINVAL, "a weight in piece %u of body %d's path is not finite", k,
                          body);
+    if (piece->weights && !has_axes(s->body[body].field, piece->weights))
+        return mote_fail(MOTE_EINVAL,
+                         "the weights in piece %u of body %d's path are not those of morph "
+                         "targets in the body's axes; make them with mote_morph_weights for an "
+                         "identity rotation",
+                         k, body);
     return check_turn(piece, body, k);
 }
 
@@ -83,6 +108,9 @@ static double weights_apart(const mote_impact_search *s, int body, const mote_pa
 {
     const mote_field *field = s->body[body].field;
     const size_t padded = field->padded;
+    if (field->numbers > 0)
+        return mote_impact_bones_apart(s->groups[body].bones, field,
+                                       a->weights ? a->weights + 9 * padded : NULL, b->weights);
     double sum = 0;
     for (uint32_t j = 0; j < field->count; ++j) {
         double size = 0;

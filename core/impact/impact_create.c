@@ -1,5 +1,6 @@
 #include "core/certificate/certificate_state.h"
 #include "core/impact/impact_state.h"
+#include "core/skin/skin.h"
 
 #include <stdlib.h>
 
@@ -60,7 +61,13 @@ static mote_status allocate(mote_impact_search *s)
    with a field of them. */
 static mote_status take_body(mote_impact_search *s, int i, const mote_body *body)
 {
+    const mote_field *field = body->field;
     s->body[i] = *body;
+    if (field->count > 0 && !field->kind->basis && !mote_field_skin(field))
+        return mote_fail(MOTE_EUNSUPPORTED,
+                         "a field of kind %s is not linear in its weights, so that the speed "
+                         "of its vertices is not known",
+                         field->kind->name);
     if (!mote_body_is_given(body))
         return MOTE_OK;
     const mote_status status = mote_lines_create(&s->own_field[i]);

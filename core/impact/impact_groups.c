@@ -1,5 +1,6 @@
 /* Groups of a body's vertices: the parts of its tree a few levels below the root. */
 #include "core/impact/impact_state.h"
+#include "core/skin/skin.h"
 
 #include <stdlib.h>
 
@@ -69,11 +70,15 @@ static void enter_functions(collection *c, uint32_t vertex, mote_impact_groups *
     if (field->kind->sparse) {
         const uint32_t n = field->kind->sparse(field, mesh, vertex, c->functions, c->phi);
         for (uint32_t i = 0; i < n; ++i) {
-            raise_to(&groups->most[(size_t)c->functions[i] * groups->padded + g], c->phi[i]);
+            if (groups->most)
+                raise_to(&groups->most[(size_t)c->functions[i] * groups->padded + g],
+                         c->phi[i]);
             raise_to(&groups->most_of_all[c->functions[i]], c->phi[i]);
         }
         return;
     }
+    if (!field->kind->basis)
+        return;
     field->kind->basis(field, mesh, vertex, c->phi);
     for (uint32_t j = 0; j < field->count; ++j) {
         raise_to(&groups->most[(size_t)j * groups->padded + g], c->phi[j]);
@@ -99,6 +104,8 @@ static void measure_group(collection *c, mote_impact_groups *groups, uint32_t g)
         if (c->body->field->count > 0)
             enter_functions(c, c->vertices[i], groups, g);
     }
+    if (groups->bones)
+        mote_impact_bones_add(groups->bones, g, groups->padded, c->vertices, c->count);
     groups->middle[g] = middle;
     groups->radius[g] = radius * (1 + 0x1p-48);
 }
@@ -106,18 +113,26 @@ static void measure_group(collection *c, mote_impact_groups *groups, uint32_t g)
 static mote_status allocate(collection *c, mote_impact_groups *groups, size_t *bytes)
 {
     const mote_field *field = c->body->field;
-    const size_t table = (size_t)field->count * groups->padded;
+    const mote_skin *skin = mote_field_skin(field);
+    const size_t table = skin ? 0 : (size_t)field->count * groups->padded;
+    if (skin) {
+        const mote_status status = mote_impact_bones_create(skin, groups->count, groups->padded,
+                                                            &groups->bones, bytes);
+        if (status != MOTE_OK)
+            return status;
+    } else {
+        groups->most = calloc(table + 1, sizeof *groups->most);
+    }
     groups->middle = calloc(groups->count, sizeof *groups->middle);
     groups->radius = calloc(groups->count, sizeof *groups->radius);
-    groups->most = calloc(table + 1, sizeof *groups->most);
     groups->most_of_all = calloc((size_t)field->count + 1, sizeof *groups->most_of_all);
     c->vertices = malloc(c->tree->leaf_vertex_count * sizeof *c->vertices);
     c->functions = malloc(((size_t)field->most + 1) * sizeof *c->functions);
     c->phi = malloc(((size_t)field->padded + 1) * sizeof *c->phi);
     *bytes += groups->count * (sizeof *groups->middle + sizeof *groups->radius) +
               (table + field->count + 2) * sizeof *groups->most;
-    if (!groups->middle || !groups->radius || !groups->most || !groups->most_of_all ||
-        !c->vertices || !c->functions || !c->phi)
+    if (!groups->middle || !groups->radius || (!skin && !groups->most) ||
+        !groups->most_of_all || !c->vertices || !c->functions || !c->phi)
         return mote_fail(MOTE_ENOMEM, "no memory for the groups of a body's vertices");
     return MOTE_OK;
 }
@@ -126,11 +141,6 @@ mote_status mote_impact_groups_create(const mote_body *body, const mote_cert_tre
                                       mote_impact_groups *groups, size_t *bytes)
 {
     const mote_field *field = body->field;
-    if (field->count > 0 && !field->kind->basis)
-        return mote_fail(MOTE_EUNSUPPORTED,
-                         "a field of kind %s is not linear in its weights, so that the speed "
-                         "of its vertices is not known",
-                         field->kind->name);
     const uint32_t room = TABLE_MOST / (field->count + 1);
     const uint32_t most = room < 1 ? 1 : room < MOTE_IMPACT_GROUPS ? room : MOTE_IMPACT_GROUPS;
     int32_t parts[MOTE_IMPACT_GROUPS] = {0};
@@ -151,6 +161,7 @@ mote_status mote_impact_groups_create(const mote_body *body, const mote_cert_tre
 
 void mote_impact_groups_destroy(mote_impact_groups *groups)
 {
+    mote_impact_bones_destroy(groups->bones);
     free(groups->middle);
     free(groups->radius);
     free(groups->most);

@@ -149,6 +149,26 @@ static double arm_of(const turning *turn, mote_vec3 from_pivot)
     return mote_length(mote_cross(from_pivot, turn->axis)) + 0x1p-48 * mote_length(from_pivot);
 }
 
+/* Bounds of each group by its functions: s->sums as mote_impact_bones_bound. */
+static double bound_functions(mote_impact_search *s, int i, const mote_path_piece *piece,
+                              mote_vec3 pivot, const turning *turn)
+{
+    const mote_impact_groups *groups = &s->groups[i];
+    const mote_field *field = s->body[i].field;
+    const size_t n = groups->padded;
+    memset(s->sums, 0, 3 * n * sizeof *s->sums);
+    if (field->count > 0 && piece->weights) {
+        bound_weights(piece->weights, field->count, field->padded, s->amounts);
+        add_up(groups->most, s->amounts, field->count, n, s->sums);
+    }
+    double grown = 0;
+    for (uint32_t g = 0; g < groups->count; ++g) {
+        grown = fmax(grown, s->sums[g]);
+        s->sums[g] += arm_of(turn, mote_sub(groups->middle[g], pivot)) + groups->radius[g];
+    }
+    return grown;
+}
+
 static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
 {
     const mote_path *path = s->question->path[i];
@@ -157,21 +177,18 @@ static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
     const mote_field *field = s->body[i].field;
     const size_t n = groups->padded;
     const turning turn = turning_of(piece);
-    memset(s->sums, 0, 3 * n * sizeof *s->sums);
-    if (field->count > 0 && piece->weights) {
-        bound_weights(piece->weights, field->count, field->padded, s->amounts);
-        add_up(groups->most, s->amounts, field->count, n, s->sums);
-    }
+    const mote_impact_balls balls = {groups->count, groups->padded, groups->middle,
+                                     groups->radius};
+    const double grown =
+        groups->bones ? mote_impact_bones_bound(groups->bones, &balls, field, piece->weights,
+                                                path->pivot, turn.axis, s->sums)
+                      : bound_functions(s, i, piece, path->pivot, &turn);
     mote_impact_motion m = {.turn = turn.rate};
-    double grown = 0;
     for (uint32_t g = 0; g < groups->count; ++g) {
-        const double d = s->sums[g], f = s->sums[n + g], e = s->sums[2 * n + g];
-        const double r =
-            arm_of(&turn, mote_sub(groups->middle[g], path->pivot)) + groups->radius[g] + d;
+        const double r = s->sums[g], f = s->sums[n + g], e = s->sums[2 * n + g];
         const double w = turn.rate;
         m.speed = fmax(m.speed, w * r + f);
         m.acceleration = fmax(m.acceleration, (turn.change + w * w) * r + 2 * w * f + e);
-        grown = fmax(grown, d);
     }
     const double size =
         bounds_of(piece->centre).size + mote_length(path->pivot) + groups->size + grown;
@@ -214,7 +231,7 @@ static double weights_kink(const mote_impact_search *s, int i, const mote_path_p
    begins. Infinite between two kinds of rotation, and of a path of positions. */
 static double kink_of(const mote_impact_search *s, int i, uint32_t k)
 {
-    if (s->lines[i])
+    if (s->lines[i] || s->body[i].field->numbers > 0)
         return HUGE_VAL;
     const mote_path *path = s->question->path[i];
     const mote_path_piece *a = &path->pieces[k - 1], *b = &path->pieces[k];

@@ -6,6 +6,7 @@
 #include "core/certificate/certificate.h"
 #include "core/certificate/certificate_tree.h"
 #include "core/impact/impact.h"
+#include "core/impact/impact_bones.h"
 #include "core/impact/impact_lines.h"
 #include "core/impact/impact_sweep.h"
 
@@ -13,15 +14,16 @@
 #define MOTE_IMPACT_GROUPS 64
 
 /* The vertices of a body in groups that lie together at rest. Of each group are known a ball
-   around it at rest and, for each basis function, the largest absolute value at its vertices.
- */
+   around it at rest and, for each basis function, the largest absolute value at its vertices;
+   of a skin, its bones instead. */
 typedef struct mote_impact_groups {
-    uint32_t count, padded; /* padded to a multiple of MOTE_LANES, with empty groups */
-    mote_vec3 *middle;      /* [count] */
-    double *radius;         /* [count] */
-    double *most;           /* [functions][padded] */
-    double *most_of_all;    /* [functions] over all groups */
-    double size;            /* of the rest coordinates: the largest length of a vertex */
+    uint32_t count, padded;   /* padded to a multiple of MOTE_LANES, with empty groups */
+    mote_vec3 *middle;        /* [count] */
+    double *radius;           /* [count] */
+    double *most;             /* [functions][padded], not of a skin */
+    double *most_of_all;      /* [functions] over all groups */
+    mote_impact_bones *bones; /* of a skin, else NULL */
+    double size;              /* of the rest coordinates: the largest length of a vertex */
 } mote_impact_groups;
 
 /* How a body moves and deforms in a piece, by the piece's local time: bounds for each vertex
@@ -63,7 +65,7 @@ struct mote_impact_search {
 
 /* impact_groups.c */
 
-/* MOTE_EUNSUPPORTED for a field that is not linear in its weights; MOTE_ENOMEM. */
+/* MOTE_ENOMEM. */
 mote_status mote_impact_groups_create(const mote_body *body, const mote_cert_tree *tree,
                                       mote_impact_groups *groups, size_t *bytes);
 void mote_impact_groups_destroy(mote_impact_groups *groups);

@@ -46,6 +46,8 @@ double mote_impact_swept_until(mote_impact_search *s, double time)
     const mote_impact_question *q = s->question;
     const uint32_t count = q->path[0]->count;
     const mote_place at = mote_path_place(q->path[0], time);
+    if (s->body[0].field->numbers > 0 || s->body[1].field->numbers > 0)
+        return time; /* not of the form of positions: speeds alone */
     const step chosen = step_from(s, at, s->at.lower - q->tolerance);
     if (!(chosen.length > 0))
         return time;

@@ -193,6 +193,7 @@ static mote_status create_field(const mote_mesh *mesh, mote_skin *skin, mote_fie
     }
     const size_t n = mesh->vertex_count;
     made->data = skin;
+    made->numbers = targets;
     made->most = 4 * skin->most + (targets ? 3 + skin->morph.most : 0);
     made->bytes += sizeof *skin + (n + 1) * sizeof *skin->start +
                    skin->start[n] * (sizeof *skin->bone + sizeof *skin->weight);

@@ -1,12 +1,12 @@
 /* make impacts: asks for the time of impact of two small bodies on random paths, and compares
    with 1,000 samples of the path by the certified distance, the first crossing bisected, and
    with all pairs of triangles at the bracket's end. The bodies are rigid, deform by radial
-   functions, modes or bones, or are arrays of positions with straight paths (samples of these
-   are streamed queries), against their like or a body of another kind; they cross slowly and
-   fast, turn a little or many times, graze each other at the sampled least distance, touch at
-   the start, stand still, or swing past with a long arm. Usage: impacts [--queries N] [--out
-   FILE] [--checks FILE]. Exit status 1 where an impact is missed or false, or found after
-   another, or a bracket is too wide. */
+   functions, modes, bones, morph targets or both, or are arrays of positions with straight
+   paths (samples of these are streamed queries), against their like or a body of another kind;
+   they cross slowly and fast, turn a little or many times, graze each other at the sampled
+   least distance, touch at the start, stand still, or swing past with a long arm. Usage:
+   impacts [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where an impact is missed
+   or false, or found after another, or a bracket is too wide. */
 #include "core/certificate/certificate.h"
 #include "tests/support/checks.h"
 #include "tests/support/impact_scene.h"

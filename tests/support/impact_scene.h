@@ -36,6 +36,8 @@ typedef enum impact_kind {
     IMPACT_CSRBF,
     IMPACT_MODES,
     IMPACT_SKIN,
+    IMPACT_MORPHS,       /* targets alone */
+    IMPACT_MORPHED_SKIN, /* targets, then bones */
     IMPACT_ARRAYS,
     IMPACT_KINDS
 } impact_kind;
@@ -67,8 +69,42 @@ static inline mote_mesh *impact_box(double x, double y, double z)
     return mesh;
 }
 
+/* Targets that bend all of the mesh, swell a half of it, and pull one vertex out. */
+static inline mote_field *impact_morphs(const mote_mesh *mesh, uint32_t bones,
+                                        const uint32_t *bone_start, const uint16_t *bone,
+                                        const double *weight)
+{
+    const uint32_t n = mesh->vertex_count;
+    uint32_t *vertex = malloc(3 * n * sizeof *vertex);
+    mote_vec3 *move = malloc(3 * n * sizeof *move);
+    uint32_t start[4] = {0, n, n, n}, count = 0;
+    mote_field *field = NULL;
+    need(vertex && move);
+    for (uint32_t v = 0; v < n; ++v) {
+        const mote_vec3 x = mote_scale(mesh->positions[v], 1 / mesh->diagonal);
+        vertex[count] = v;
+        move[count++] = mote_vec3_make(0.1, x.x * x.x, sin(5 * x.x));
+    }
+    for (uint32_t v = 0; v < n; ++v) {
+        if (!(mesh->positions[v].x > 0))
+            continue;
+        vertex[count] = v;
+        move[count++] = mote_scale(mesh->positions[v], 1 / mesh->diagonal);
+    }
+    start[2] = count;
+    vertex[count] = n / 2;
+    move[count++] = mote_vec3_make(0, 2, 1);
+    start[3] = count;
+    const mote_morph_targets targets = {3, start, vertex, move};
+    need(mote_field_create_morphs(mesh, bones, bone_start, bone, weight, &targets, &field) ==
+         MOTE_OK);
+    free(vertex);
+    free(move);
+    return field;
+}
+
 /* Bones one after the other along x; every vertex follows the two nearest. */
-static inline mote_field *impact_skin(const mote_mesh *mesh)
+static inline mote_field *impact_skin(const mote_mesh *mesh, bool morphs)
 {
     const uint32_t n = mesh->vertex_count;
     uint32_t *start = malloc((n + 1) * sizeof *start);
@@ -87,7 +123,11 @@ static inline mote_field *impact_skin(const mote_mesh *mesh)
         weight[2 * v] = 1 - weight[2 * v + 1];
     }
     start[n] = 2 * n;
-    need(mote_field_create_skin(mesh, IMPACT_BONES, start, bone, weight, &field) == MOTE_OK);
+    if (morphs)
+        field = impact_morphs(mesh, IMPACT_BONES, start, bone, weight);
+    else
+        need(mote_field_create_skin(mesh, IMPACT_BONES, start, bone, weight, &field) ==
+             MOTE_OK);
     free(start);
     free(bone);
     free(weight);
@@ -114,7 +154,11 @@ static inline mote_field *impact_field(const mote_mesh *mesh, impact_kind kind,
         need(mote_field_create_modes(modes, 2, mesh->vertex_count, &field) == MOTE_OK);
         free(modes);
     } else if (kind == IMPACT_SKIN) {
-        field = impact_skin(mesh);
+        field = impact_skin(mesh, false);
+    } else if (kind == IMPACT_MORPHS) {
+        field = impact_morphs(mesh, 0, NULL, NULL, NULL);
+    } else if (kind == IMPACT_MORPHED_SKIN) {
+        field = impact_skin(mesh, true);
     } else if (kind == IMPACT_ARRAYS) {
         need(mote_field_create_given(&field) == MOTE_OK);
     } else {
@@ -140,6 +184,9 @@ static inline void impact_body_init(impact_body *b, mote_mesh *mesh, impact_kind
         b->piece[k].turn[0] = b->piece[k].turn[1] = b->piece[k].turn[2] = b->piece[k].turn[3] =
             (mote_quaternion){1, 0, 0, 0};
         b->piece[k].weights = padded > 0 ? b->control[k] : NULL;
+        const uint32_t numbers = b->field->numbers;
+        for (size_t i = 0; i < 12 && numbers > 0; ++i) /* the body's axes */
+            b->control[k][i * padded + b->field->count - numbers - 3 + i % 3] = 1;
     }
     b->path.pieces = b->piece;
     b->path.count = 1;
@@ -244,12 +291,16 @@ static inline void impact_piece_random(impact_body *b, uint32_t k, const impact_
     if (k > 0)
         p->centre[0] = b->piece[k - 1].centre[3];
     const size_t padded = b->field->padded;
+    const uint32_t count = b->field->count, numbers = b->field->numbers;
     for (size_t i = 0; i < 4; ++i) {
         for (size_t c = 0; c < 3; ++c) {
-            for (size_t j = 0; j < b->field->count; ++j)
+            for (uint32_t j = 0; j < count; ++j) {
+                if (numbers > 0 && j + numbers + 3 >= count && (c > 0 || j + numbers < count))
+                    continue; /* axes, and numbers but in x */
                 b->control[k][(3 * i + c) * padded + j] =
                     i == 0 && k > 0 ? b->control[k - 1][(9 + c) * padded + j]
                                     : impact_between(random, -w->weights, w->weights);
+            }
         }
     }
 }

@@ -285,6 +285,14 @@ TEST(mote_impact_query_bad_pieces_are_refused)
     impact_scene_free(&s);
 }
 
+/* Of a field that is not linear in its weights. */
+static mote_vec3 bend(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                      const mote_weights *weights)
+{
+    (void)field, (void)mesh, (void)vertex;
+    return mote_vec3_make(sin(weights->x[0]), 0, 0);
+}
+
 TEST(mote_impact_create_refuses_what_it_cannot_answer)
 {
     impact_scene s;
@@ -302,17 +310,11 @@ TEST(mote_impact_create_refuses_what_it_cannot_answer)
     for (int i = 0; i < 5; ++i)
         assert_int_equal(mote_impact_create(bodies, &bad[i], &made), MOTE_EINVAL);
     const mote_impact_options options = mote_default_impact_options(s.length);
-    const uint32_t start[] = {0, 1}, vertex[] = {0};
-    const mote_vec3 move[] = {{0.1, 0, 0}};
-    const mote_morph_targets targets = {1, start, vertex, move};
-    mote_field *morphs = NULL;
-    assert_int_equal(
-        mote_field_create_morphs(s.of[0].mesh, 0, NULL, NULL, NULL, &targets, &morphs),
-        MOTE_OK);
-    const mote_body face = {.mesh = s.of[0].mesh, .field = morphs};
-    const mote_body *const morphing[2] = {bodies[0], &face};
-    assert_int_equal(mote_impact_create(morphing, &options, &made), MOTE_EUNSUPPORTED);
-    mote_field_destroy(morphs);
+    const mote_field_kind kind = {.name = "bent", .displacement = bend};
+    const mote_field bent = {.kind = &kind, .count = 1, .padded = MOTE_LANES};
+    const mote_body rod = {.mesh = s.of[0].mesh, .field = &bent};
+    const mote_body *const bending[2] = {bodies[0], &rod};
+    assert_int_equal(mote_impact_create(bending, &options, &made), MOTE_EUNSUPPORTED);
     assert_null(made);
     impact_scene_free(&s);
 }
@@ -378,6 +380,60 @@ TEST(mote_impact_query_sweeps_save_iterations)
     }
     assert_true(iterations[0] > 500);
     assert_true(iterations[1] < 20);
+}
+
+/* A target that pulls the box's face x = 0.5 out by its amount, before a bone turns the box by
+   a quarter about z: what was pulled out meets a box above. */
+TEST(mote_impact_query_a_target_before_a_bone)
+{
+    for (int bones = 0; bones < 2; ++bones) {
+        impact_scene s;
+        impact_scene_init(&s, impact_box(1, 1, 1), impact_box(1, 1, 1), IMPACT_RIGID, 1);
+        const mote_mesh *mesh = s.of[0].mesh;
+        const uint32_t start[] = {0, 4}, vertex[] = {1, 3, 5, 7};
+        const mote_vec3 move[] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+        const mote_morph_targets targets = {1, start, vertex, move};
+        const uint32_t first[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+        const uint16_t bone[8] = {0};
+        const double weight[] = {1, 1, 1, 1, 1, 1, 1, 1};
+        mote_field *field = NULL;
+        assert_int_equal(mote_field_create_morphs(mesh, (uint32_t)bones, bones ? first : NULL,
+                                                  bones ? bone : NULL, bones ? weight : NULL,
+                                                  &targets, &field),
+                         MOTE_OK);
+        const mote_body body = {.mesh = mesh, .field = field};
+        const mote_body *const bodies[2] = {&body, &s.of[1].body};
+        const mote_impact_options options = mote_default_impact_options(s.length);
+        mote_impact_search *search = NULL;
+        assert_int_equal(mote_impact_create(bodies, &options, &search), MOTE_OK);
+        const double quarter[1][3][4] = {{{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}};
+        const mote_mat3 same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        const size_t n = field->padded;
+        double control[12 * 64] = {0};
+        assert_true(n <= 64);
+        for (size_t i = 0; i < 4; ++i) {
+            const double amount = (double)i; /* 3 t */
+            mote_morph_weights(field, bones ? quarter : NULL, &amount, &same,
+                               control + 3 * i * n, control + (3 * i + 1) * n,
+                               control + (3 * i + 2) * n);
+        }
+        s.of[0].piece[0].weights = control;
+        for (int i = 0; i < 4; ++i)
+            s.of[1].piece[0].centre[i] =
+                bones ? mote_vec3_make(0.1, 2.5, 0) : mote_vec3_make(2.5, 0.1, 0);
+        const mote_impact_question question = impact_question(&s, 0);
+        mote_impact_found found;
+        assert_int_equal(mote_impact_query(search, &question, &found), MOTE_OK);
+        check_found(&found, 0.5); /* 0.5 + 3 t = 2 */
+        check_close(bones ? found.normal.y : found.normal.x, 1, 1e-9);
+        control[4 + 1] = 0.5; /* of the rotation's columns, behind the bone's four */
+        assert_int_equal(mote_impact_query(search, &question, &found), MOTE_EINVAL);
+        assert_true(strstr(mote_error_text(), "mote_morph_weights"));
+        mote_impact_destroy(search);
+        s.of[0].piece[0].weights = NULL;
+        mote_field_destroy(field);
+        impact_scene_free(&s);
+    }
 }
 
 TEST(mote_impact_query_does_not_allocate)
