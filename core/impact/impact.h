@@ -24,8 +24,8 @@ typedef struct mote_impact_options {
     double resolution;   /* > 0: width of the bracket, as a part of the time 0 .. 1 */
     uint32_t pieces;     /* >= 1: the most pieces that a path will have */
     uint32_t iterations; /* >= 1: certified queries after which the search gives up */
-    uint32_t patience;   /* steps by speeds alone before the first sweep by directions, which is
-                            as dear as ten of them; UINT32_MAX: no sweeps */
+    uint32_t patience;   /* steps by speeds alone before the first sweep by directions, which
+                            costs as much as ten of them; UINT32_MAX: no sweeps */
 } mote_impact_options;
 
 /* A bracket of 1e-6, at most 128 pieces and 10,000 queries, a patience of 10. length > 0: L of
@@ -58,22 +58,22 @@ typedef struct mote_impact_question {
 
 typedef enum mote_impact_outcome {
     MOTE_IMPACT_NONE,  /* proven: the distance is above the tolerance in all of [begin, end] */
-    MOTE_IMPACT_FOUND, /* at `to` the distance is at most the tolerance, and `to` is at most
-                          the resolution behind `from` */
+    MOTE_IMPACT_FOUND, /* at `to` the distance is at most the tolerance, and `to` is at most the
+                          resolution after `from` */
     MOTE_IMPACT_GRAZING,  /* at `to` the distance is above the tolerance, but by no more than
-                             what rounding can tell apart */
+                             rounding errors */
     MOTE_IMPACT_UNDECIDED /* the iterations are spent; `to` is `from`, where the proof ended */
 } mote_impact_outcome;
 
 typedef struct mote_impact_found {
     mote_impact_outcome outcome;
-    double from; /* proven: the distance is above the tolerance at all times from begin to here,
-                    here excepted; `end` where there is no impact */
+    double from; /* proven: the distance is above the tolerance at all times from begin up to,
+                    but not at, this one; `end` where there is no impact */
     double to;   /* >= from */
     double distance;      /* at `to`, exact */
     mote_vec3 witness[2]; /* at `to`, on the surfaces */
-    mote_vec3 normal;     /* of length 1, from body 0 to body 1, at the last time looked at when
-                             they were apart; 0 where they never were */
+    mote_vec3 normal;     /* of length 1, from body 0 to body 1, at the last time asked about at
+                             which they were apart; 0 where they never were */
     uint32_t iterations;  /* certified queries made */
     mote_counters counters;
 } mote_impact_found;
@@ -86,7 +86,7 @@ typedef struct mote_impact_found {
    weights of morph targets that are not in the body's axes;
    positions where the body has a field, or none where it has not; positions that cannot be
    read, or that are 10^18 L from the origin. No allocation. Of a path of positions every vertex
-   is looked at in each frame, and boxes are made of the frames that the search comes to. */
+   of each frame is read, and the frames that the search comes to are boxed. */
 mote_status mote_impact_query(mote_impact_search *search, const mote_impact_question *question,
                               mote_impact_found *found);
 

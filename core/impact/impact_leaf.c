@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Steps of a pair of triangles, at most; a pair's last step counts even if more would follow.
- */
+/* Steps of a pair of triangles, at most; what the last one shows counts even if more would
+   follow. */
 #define STEPS_MOST 12
 
 /* A pair is left where a step gains less than this part of what is left of the step. */

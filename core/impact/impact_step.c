@@ -1,5 +1,5 @@
-/* The step of a sweep: as long as it may be of use. Where a bend alone would close the gap no
-   direction helps, and turns by more than a radian are left to the next step. */
+/* How long the step of a sweep is: no longer than is of use. Where the bend alone would close
+   the gap, no direction helps; turns by more than a radian are left to the next step. */
 #include "core/impact/impact_state.h"
 
 #include <math.h>

@@ -151,8 +151,8 @@ static uint32_t row(const moving_box *restrict d, const mote_cert_node *restrict
     return bits & e->block->mask;
 }
 
-/* The boxes of other kinds of bounds may not be linear in z: puts their axes into their widths,
-   so that they count whatever the z of the positions is. */
+/* The boxes of other kinds of bounds need not be linear in z: puts their axes into their
+   widths, so that they count for any z of the positions. */
 static void forget_axes(mote_cert_node *node)
 {
     for (size_t r = 0; r < 3; ++r) {

@@ -11,9 +11,10 @@
    half size of the union once more each: at most 38 u S. The union of intervals within -S .. S
    is within it, so that all terms of the box are at most 2 S; what tests of boxes round is at
    most 40 u of what these add up to (certificate_fitted.c): 38 sqrt(3) + 80 < 160 u S.
-   - At leaves, with K (head.reach) the sum of the sizes of a child's entries, all terms add up
-   to at most B = S (1 + 2 K): e and the d_k together are at most 2 S. Each is rounded at most
-   13 times, and n times more where n bones are added up: sqrt(3) (n + 13) + 40 < 2 n + 64 u B.
+   - At leaves, with K (head.row_sum) the sum of the sizes of a child's entries, all terms add
+   up to at most B = S (1 + 2 K): e and the d_k together are at most 2 S. Each is rounded at
+   most 13 times, and n times more where n bones are added up: sqrt(3) (n + 13) + 40 < 2 n + 64
+   u B.
    - Targets add at most sqrt(3) (n_t + 4) < 2 (n_t + 4) u of the same terms to either. */
 #include "core/skin/skin_bounds.h"
 #include "core/certificate/certificate_project.h"
@@ -228,7 +229,7 @@ MOTE_INLINE void convex_project(const mote_cert_side *restrict side,
 static float leaf_margin(const mote_cert_side *side, const mote_cert_block *block)
 {
     const mote_skin_head *head = head_of(side, block);
-    const float more = 1 + 2 * head->reach;
+    const float more = 1 + 2 * head->row_sum;
     const float bones = (float)(block->active_count - WIDTH) - head->morphs;
     return side->margin_base + side->margin_unit * more *
                                    (64 + 2 * bones + morph_roundings(head->morphs)) *
@@ -282,10 +283,10 @@ MOTE_INLINE void leaf_along(const mote_cert_side *restrict side,
             a0[l] += row->slope[0][l] * e + f * d[1];
             a1[l] += row->slope[1][l] * e + f * d[2];
             a2[l] += row->slope[2][l] * e + f * d[3];
-            width[l] += row->rest[l] * fabsf(e) +
+            width[l] += row->residual[l] * fabsf(e) +
                         (row->spread[0][l] * fabsf(d[1]) + row->spread[1][l] * fabsf(d[2]) +
                          row->spread[2][l] * fabsf(d[3]));
-            const float other = row->rest[l] > 0 ? loose_image(box, x, y, z, l) : 0;
+            const float other = row->residual[l] > 0 ? loose_image(box, x, y, z, l) : 0;
             loose[l] = other > loose[l] ? other : loose[l];
         }
     }
@@ -351,7 +352,7 @@ MOTE_INLINE void leaf_project(const mote_cert_side *restrict side,
                                (const float[3]){f.axis[0][l], f.axis[1][l], f.axis[2][l]},
                                f.width[l]);
     node->leaf_margin =
-        side->leaf_margin * (1 + 2 * head_of(side, block)->reach) * (1 + 0x1p-20F);
+        side->leaf_margin * (1 + 2 * head_of(side, block)->row_sum) * (1 + 0x1p-20F);
     mote_cert_finish_projection(side, block, node, false);
 }
 

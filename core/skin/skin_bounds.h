@@ -38,7 +38,8 @@ extern "C" {
    reference bone of each child. */
 typedef struct mote_skin_head {
     float convex; /* 1: rows are mote_skin_convex_row, 0: mote_skin_leaf_row */
-    float reach;  /* leaves: the largest sum of abs(f), m, abs(g_k), abs(s_k), m_k of a child */
+    float
+        row_sum;  /* leaves: the largest sum of abs(f), m, abs(g_k), abs(s_k), m_k of a child */
     float morphs; /* how many of the rows, the last ones, are mote_skin_morph_row */
     float unused[MOTE_CERT_WIDTH - 3];
 } mote_skin_head;
@@ -46,7 +47,7 @@ typedef struct mote_skin_head {
 typedef struct mote_skin_leaf_row {
     mote_cert_strip offset;    /* f */
     mote_cert_strip slope[3];  /* g_k */
-    mote_cert_strip rest;      /* m */
+    mote_cert_strip residual;  /* m */
     mote_cert_strip shift[3];  /* s_k */
     mote_cert_strip spread[3]; /* m_k */
 } mote_skin_leaf_row;

@@ -33,7 +33,7 @@ typedef struct fitter {
     uint32_t block_count, child_count;
     uint16_t reference[WIDTH];
     bool convex;
-    float reach;
+    float row_sum;
     mote_morph_fitter *morphs; /* NULL without targets */
 } fitter;
 
@@ -220,28 +220,29 @@ static void add_up(fitter *f, const mote_cert_tree *tree, const mote_cert_part *
 }
 
 /* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. Slopes only
-   decide how wide the rest is: beyond 4 they would cost more in margins than they save. */
+   decide how wide the residuals are: beyond 4 they would cost more in margins than they save.
+ */
 static double write_lane(const fitter *f, const mote_cert_tree *tree,
                          const mote_cert_part *part, uint32_t bone)
 {
     mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
     const size_t lane = part->lane;
-    double g[3], reach = 0;
+    double g[3], sum = 0;
     for (int k = 0; k < 3; ++k) {
         const double slope = f->linear ? f->rows[bone].right[k + 1] : 0;
         g[k] = mote_as_float(fabs(slope) <= 4 ? slope : 0);
         row->slope[k][lane] = (float)g[k];
-        reach += fabs(g[k]);
+        sum += fabs(g[k]);
     }
-    mote_range rest = MOTE_RANGE_EMPTY;
+    mote_range residual = MOTE_RANGE_EMPTY;
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
         double z[3];
         mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
-        mote_range_widen(&rest, weight_of(f->skin, vertex, bone) - g[0] * z[0] - g[1] * z[1] -
-                                    g[2] * z[2]);
+        mote_range_widen(&residual, weight_of(f->skin, vertex, bone) - g[0] * z[0] -
+                                        g[1] * z[1] - g[2] * z[2]);
     }
-    reach += mote_range_settle(&rest, &row->offset[lane], &row->rest[lane]);
+    sum += mote_range_settle(&residual, &row->offset[lane], &row->residual[lane]);
     const double offset = (double)row->offset[lane];
     mote_range product[3] = {MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY};
     for (size_t v = 0; v < part->count; ++v) {
@@ -252,8 +253,8 @@ static double write_lane(const fitter *f, const mote_cert_tree *tree,
             mote_range_widen(&product[k], (weight_of(f->skin, vertex, bone) - offset) * z[k]);
     }
     for (int k = 0; k < 3; ++k)
-        reach += mote_range_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
-    return reach;
+        sum += mote_range_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
+    return sum;
 }
 
 static void fit_leaf(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
@@ -273,12 +274,12 @@ static void fit_leaf(fitter *f, const mote_cert_tree *tree, const mote_cert_part
         reference = f->rows[b].total > f->rows[reference].total ? b : reference;
     }
     f->reference[part->lane] = reference;
-    double reach = 0;
+    double sum = 0;
     for (uint32_t i = 0; i < f->child_count; ++i) {
         if (f->of_child[i] != reference)
-            reach += write_lane(f, tree, part, f->of_child[i]);
+            sum += write_lane(f, tree, part, f->of_child[i]);
     }
-    f->reach = mote_rounded_up(reach) > f->reach ? mote_rounded_up(reach) : f->reach;
+    f->row_sum = mote_rounded_up(sum) > f->row_sum ? mote_rounded_up(sum) : f->row_sum;
 }
 
 /* --- blocks ---------------------------------------------------------------------------------
@@ -303,10 +304,9 @@ static bool has_row(const fitter *f, uint16_t bone)
     if (f->convex)
         return true;
     const mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
-    float most = 0;
+    float most = 0; /* a residual is more than 0 wherever it is written */
     for (size_t l = 0; l < WIDTH; ++l)
-        most =
-            row->rest[l] > most ? row->rest[l] : most; /* more than 0 wherever it is written */
+        most = row->residual[l] > most ? row->residual[l] : most;
     return most > 0;
 }
 
@@ -337,7 +337,7 @@ mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_blo
     mote_cert_strip *strip = tree->strips + block->first_strip;
     uint16_t *active = tree->active + block->first_active;
     const mote_skin_head head = {
-        .convex = f->convex ? 1 : 0, .reach = f->reach, .morphs = (float)morphs};
+        .convex = f->convex ? 1 : 0, .row_sum = f->row_sum, .morphs = (float)morphs};
     memcpy(strip, &head, sizeof head);
     for (size_t l = 0; l < first; ++l)
         active[l] = l < block->children ? f->reference[l] : f->reference[0];
@@ -348,7 +348,7 @@ mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_blo
     if (f->morphs)
         mote_morph_fit_store(f->morphs, strip + 1 + strips * count, active + first + count);
     f->block_count = 0;
-    f->reach = 0;
+    f->row_sum = 0;
     ++f->block;
     return MOTE_OK;
 }

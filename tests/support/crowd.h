@@ -132,4 +132,15 @@ static inline double crowd_distance(const crowd *c, uint32_t i, uint32_t j)
     return sqrt(best);
 }
 
+/* Checks an answer against all pairs of triangles, to an error. */
+static inline void crowd_expect(const crowd *c, const mote_scene_pair *a, double tolerance,
+                                double error)
+{
+    const double truth = crowd_distance(c, a->body[0], a->body[1]);
+    assert_close(a->distance, truth, error);
+    assert_true(a->lower <= truth && a->lower >= truth - error);
+    assert_int_equal(a->contact, truth <= tolerance);
+    assert_close(sqrt(mote_distance_squared(a->witness[0], a->witness[1])), truth, error);
+}
+
 #endif

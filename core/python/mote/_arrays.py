@@ -1,5 +1,4 @@
-"""Checks of arguments. Whatever is wrong is said by an error that begins with the argument's
-name."""
+"""Checks of arguments. Every error begins with the argument's name."""
 
 from __future__ import annotations
 
@@ -35,7 +34,7 @@ def _listed(name: str, value: Sequence[Any], depth: int, room: int) -> int:
             raise TypeError(f"{name}: a list contains itself")
     if claimed > room:
         raise TypeError(f"{name}: more than {LISTED} numbers in lists; pass a numpy array")
-    found = 0
+    total = 0
     kinds = set(map(type, value))
     for kind in kinds:
         if issubclass(kind, (list, tuple, np.ndarray)):
@@ -46,12 +45,12 @@ def _listed(name: str, value: Sequence[Any], depth: int, room: int) -> int:
         return len(value)
     for item in value:
         if isinstance(item, (list, tuple)):
-            found += _listed(name, item, depth + 1, room - found)
+            total += _listed(name, item, depth + 1, room - total)
         else:
-            found += item.size if isinstance(item, np.ndarray) else 1
-        if found > room:
+            total += item.size if isinstance(item, np.ndarray) else 1
+        if total > room:
             raise TypeError(f"{name}: more than {LISTED} numbers in lists; pass a numpy array")
-    return found
+    return total
 
 
 def array_of(name: str, value: object) -> np.ndarray:
@@ -69,7 +68,7 @@ def array_of(name: str, value: object) -> np.ndarray:
     try:
         array = np.asarray(value)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        raise TypeError(f"{name}: this is no array of numbers: {error}") from None
+        raise TypeError(f"{name}: not an array of numbers: {error}") from None
     if type(array) is not np.ndarray:
         array = np.asarray(array).view(np.ndarray)
     if array.dtype.kind not in "fiu":

@@ -1,5 +1,5 @@
 """Poses and weights as the library takes them: of one frame into memory of their own, of many
-frames borrowed from arrays where they lie right."""
+frames borrowed from arrays that the library can read."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Framed(NamedTuple):
     step: int  # numbers from one frame's to the next one's
 
 
-def _lies_right(array: np.ndarray, inner: int) -> bool:
+def _is_borrowable(array: np.ndarray, inner: int) -> bool:
     """Whether the last `inner` dimensions are contiguous doubles."""
     if array.dtype != DOUBLE or not array.flags.aligned or array.size == 0:
         return False
@@ -48,7 +48,7 @@ def framed(name: str, array: np.ndarray, shape: tuple[int, ...]) -> Framed:
     wanted = (ANY, *shape) if several else shape
     if not fits(array.shape, wanted):
         raise wrong_shape(name, array, shape, (ANY, *shape))
-    if not _lies_right(array, len(shape)):
+    if not _is_borrowable(array, len(shape)):
         array = contiguous(name, array, DOUBLE)
     if not several:
         return Framed(array, None, 0)

@@ -33,7 +33,7 @@ class _Shared:
         return memory
 
     def close(self) -> None:
-        """Gives it up; what was made with it goes on. Closing twice is allowed."""
+        """Gives it up; what was made with it keeps working. Closing twice is allowed."""
         self._memory = None
 
     @property
@@ -67,8 +67,8 @@ class Mesh(_Shared):
         xyz = numbers("vertices", vertices, (ANY, 3))
         triangles = indices("faces", faces, (ANY, 3), max(len(xyz), 1), np.uint32)
         self._memory = lib.create(
-            "vertices, faces", lib.mesh_create, lib.mesh_destroy, (), address(xyz), len(xyz), address(triangles),
-            len(triangles),
+            "vertices, faces", lib.mesh_create, lib.mesh_destroy, (), address(xyz), len(xyz),
+            address(triangles), len(triangles),
         )
         data = lib.MeshData.from_address(self._memory.address)
         self._vertex_count = int(data.vertex_count)
@@ -168,9 +168,10 @@ class Field(_Shared):
         that they turn with the body's pose.
         """
         points = numbers("centres", centres, (ANY, 3))
-        reach = real("support", support)
+        radius = real("support", support)
         memory = lib.create(
-            "centres, support", lib.field_csrbf, lib.field_destroy, (), address(points), len(points), reach
+            "centres, support", lib.field_csrbf, lib.field_destroy, (), address(points), len(points),
+            radius,
         )
         return cls._make("csrbf", memory, None, (len(points), 3), 0)
 
@@ -196,8 +197,8 @@ class Field(_Shared):
 
         weights: float64 (vertices, bones), >= 0; each vertex has one that is not 0, and they are
         divided by their sum. Or bones: integers (vertices, k), and weights (vertices, k) for the
-        bones named there; bone_count is how many bones there are, by default the largest number
-        in bones and one. targets: as of morph, moved before the bones.
+        bones named there; bone_count is how many bones there are, by default one more than the
+        largest number in bones. targets: as of morph, moved before the bones.
 
         A frame's weights: float64 (bones, 3, 4), or (bones, 4, 4): matrices that take rest
         coordinates to posed ones, before the body's pose; scale and shear are allowed. With
@@ -229,8 +230,8 @@ class Field(_Shared):
         owner = mesh_of("mesh", mesh)
         given = _targets(owner.vertex_count, targets)
         memory = lib.create(
-            "targets", lib.field_morphs, lib.field_destroy, (), owner._need("mesh").address, 0, None, None,
-            None, ctypes.addressof(given.struct),
+            "targets", lib.field_morphs, lib.field_destroy, (), owner._need("mesh").address, 0, None,
+            None, None, ctypes.addressof(given.struct),
         )
         return cls._make("morph", memory, owner.vertex_count, None, given.count)
 

@@ -92,15 +92,15 @@ class Scene(lib.Guarded):
         return self._members[integer("shape", shape, 0, len(self._members) - 1)].copy()
 
     def step(self, poses: object, weights: object = None, *, within: float = 0.0) -> Near:
-        """Moves all bodies and asks about the pairs whose boxes are at most `within` apart:
-        all pairs of bodies that near are among them, and some that are not. Pairs that were also
+        """Moves all bodies and asks about the pairs whose boxes are at most `within` apart.
+        All pairs of bodies that are at most that far apart are among them, and some others. Pairs that were also
         near in the last step continue from their answers, which is faster.
 
         poses: float64 (bodies, 3, 4) or (bodies, 4, 4). weights: None; where there is one shape,
         (bodies, *weights_shape); else a list of such an array or None for each shape, with a row for
         each of its members. A ValueError names the first bad body.
         """
-        reach = real("within", within, infinite=True)
+        limit = real("within", within, infinite=True)
         count = c_size_t()
         address_of = self._enter()
         try:
@@ -110,7 +110,7 @@ class Scene(lib.Guarded):
                 )
             kept = self._point_at(poses, weights)
             status = lib.crowd_step(
-                address_of, address(self._controls), reach, ctypes.byref(count)
+                address_of, address(self._controls), limit, ctypes.byref(count)
             )
             if status:
                 lib.raise_error(status)

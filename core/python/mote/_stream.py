@@ -31,7 +31,7 @@ class _Given(NamedTuple):
     frames: Optional[int]
 
 
-def _lies_right(array: np.ndarray) -> bool:
+def _is_borrowable(array: np.ndarray) -> bool:
     size = array.itemsize
     steps = array.strides
     return (
@@ -48,7 +48,7 @@ def _given(name: str, value: object, vertices: int) -> _Given:
     array = array_of(name, value)
     if not (fits(array.shape, (vertices, 3)) or fits(array.shape, (ANY, vertices, 3))):
         raise wrong_shape(name, array, (vertices, 3), (ANY, vertices, 3))
-    if not _lies_right(array):
+    if not _is_borrowable(array):
         single = array.dtype.kind == "f" and array.itemsize == 4
         array = contiguous(name, array, SINGLE) if single else contiguous(name, array, DOUBLE)
     return _Given(array, len(array) if array.ndim == 3 else None)
