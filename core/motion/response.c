@@ -36,6 +36,13 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
                          double restitution, mote_rigid_state *const state[2],
                          mote_impact *impact)
 {
+    return mote_respond_deforming(mass, point, normal, restitution, 0, state, impact);
+}
+
+mote_status mote_respond_deforming(const mote_mass *const mass[2], mote_vec3 point,
+                                   mote_vec3 normal, double restitution, double own,
+                                   mote_rigid_state *const state[2], mote_impact *impact)
+{
     const double length = mote_length(normal);
     if (!(length > 0) || !isfinite(length))
         return mote_fail(MOTE_EINVAL, "the normal of a collision has no direction");
@@ -43,6 +50,8 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
         return mote_fail(MOTE_EINVAL, "restitution %g; give a number from 0 to 1", restitution);
     if (!isfinite(mote_length(point)))
         return mote_fail(MOTE_EINVAL, "the point of a collision is not finite");
+    if (!isfinite(own))
+        return mote_fail(MOTE_EINVAL, "surfaces that close by %g; give a finite speed", own);
     const mote_vec3 n = mote_scale(normal, 1 / length);
     mote_vec3 arm[2];
     double effective[2], velocity[2], pulse[2], after[2];
@@ -53,7 +62,7 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
         pulse[i] = effective[i] * velocity[i];
     }
     mote_impact made = {.closing = velocity[0] - velocity[1]};
-    made.approaching = made.closing > 0;
+    made.approaching = made.closing + own > 0;
     if (made.approaching) {
         mote_pulses_after(effective, pulse, after);
         /* The two changes are opposite except for rounding; one is used for both bodies. */
@@ -61,6 +70,10 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
         const double reduced = effective[0] * effective[1] / (effective[0] + effective[1]);
         made.energy =
             (1 - restitution * restitution) / 2 * reduced * made.closing * made.closing;
+        /* the impulse p = (1 + e) m (closing + own) takes p closing - p^2 / (2 m) in all */
+        const double more = (1 + restitution) * reduced * own;
+        made.pulse += more;
+        made.energy += more * (made.closing - (1 + restitution) * (made.closing + own / 2));
         mote_apply_pulse(mass[0], arm[0], mote_scale(n, -made.pulse), state[0]);
         mote_apply_pulse(mass[1], arm[1], mote_scale(n, made.pulse), state[1]);
     }

@@ -55,6 +55,15 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
                          double restitution, mote_rigid_state *const state[2],
                          mote_impact *impact);
 
+/* The same for surfaces that also move against their bodies: `own` is the speed at which they
+   close the gap by their deformation, or by whatever else the states do not say. The points
+   then approach if closing + own > 0, and the impulse is that for this speed. impact->energy is
+   what the bodies lost in all; below 0 where the surfaces did work on them. MOTE_EINVAL also if
+   own is not finite. */
+mote_status mote_respond_deforming(const mote_mass *const mass[2], mote_vec3 point,
+                                   mote_vec3 normal, double restitution, double own,
+                                   mote_rigid_state *const state[2], mote_impact *impact);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

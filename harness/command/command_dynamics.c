@@ -19,6 +19,8 @@ const mote_option mote_options_dynamics[] = {
     {"jobs", "K", "rows at once, 1 to 64 (default: 1)"},
     {"approaches", "K", "for every row (default: 1000, for FCL 200; with --quick 100 and 20)"},
     {"scene", "NAME", "this scene only (default: all)"},
+    {"step", "K",
+     "only sampled and continuous steps of K frames: 1, 3, 10 or 30 (default: all rows)"},
     {"keep", NULL,
      "keep rows that another build of the program measured (default: measure them again)"},
     {NULL, NULL, NULL}};
@@ -47,13 +49,21 @@ static bool read_option(request *wish, int option, const char *value)
     case 4:
         wish->size.scene = value;
         return true;
+    case 5:
+        if (mote_read_unsigned(value, 1, 1000, &number)) {
+            wish->size.step = (double)number;
+            return true;
+        }
+        break;
     default:
         wish->keep = true;
         return true;
     }
     (void)mote_command_usage("dynamics", "--%s %s: give a whole number from 1 to %s",
                              mote_options_dynamics[option].name, value,
-                             option == 2 ? "64" : "1000000");
+                             option == 2   ? "64"
+                             : option == 5 ? "1000"
+                                           : "1000000");
     return false;
 }
 

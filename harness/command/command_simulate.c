@@ -23,7 +23,8 @@ typedef struct request {
     const char *trace, *film, *out;
     mote_choices choices;
     mote_shard shard;
-    bool json;
+    bool json, sampled;
+    double step;                                       /* MOTE_NONE: steps are whole */
     double density, restitution, tolerance, time_step; /* MOTE_NONE: the default */
     mote_vec3 gravity;
     uint64_t steps, seed; /* steps 0: all frames */
@@ -45,6 +46,16 @@ static void set_options(const request *wish, mote_simulation_options *options)
     if (!isnan(wish->time_step))
         options->time_step = wish->time_step;
     options->gravity = wish->gravity;
+    if (!isnan(wish->step)) {
+        options->time_step = wish->step;
+        options->within = wish->sampled ? MOTE_STEPS_SAMPLED : MOTE_STEPS_CONTINUOUS;
+    }
+}
+
+/* How often a film sees the bodies: steps, or frames where they have paths within steps. */
+static uint32_t watched(const request *wish, uint32_t steps)
+{
+    return isnan(wish->step) ? steps : (uint32_t)fmin(ceil(steps * wish->step), 4e9);
 }
 
 /* Simulates, and draws the film if requested. */
@@ -54,8 +65,8 @@ static mote_status run(const request *wish, mote_simulator *simulator, mote_rigi
     mote_film *film = NULL;
     mote_status status = MOTE_OK;
     if (wish->film)
-        status = mote_film_create(simulator, wish->choices.items[0].text, start->steps,
-                                  wish->film, &film);
+        status = mote_film_create(simulator, wish->choices.items[0].text,
+                                  watched(wish, start->steps), wish->film, &film);
     if (film) {
         start->watch = mote_film_watch;
         start->context = film;
@@ -216,6 +227,12 @@ const mote_option mote_options_simulate[] = {
      "distance of a contact, in L (default: the scenario's, or 0.005 where that is 0)"},
     {"gravity", "X,Y,Z", "the acceleration, in L per frame squared (default: 0,0,0)"},
     {"time-step", "H", "the length of a step, in frames (default: 1)"},
+    {"step", "K",
+     "steps of K frames, within which certified finds impacts, which are answered where they "
+     "happen (default: contacts are looked for at the ends of steps)"},
+    {"sampled", NULL,
+     "with --step: look for contacts at the ends of steps, on the same paths (default: find "
+     "impacts)"},
     {"trace", "FILE.json", "write the motion as a scenario (default: not written)"},
     {"film", "FILE.gif", "draw the motion (default: not drawn)"},
     {"replicates", "R",
@@ -242,6 +259,8 @@ enum {
     OPTION_TOLERANCE,
     OPTION_GRAVITY,
     OPTION_TIME_STEP,
+    OPTION_STEP,
+    OPTION_SAMPLED,
     OPTION_TRACE,
     OPTION_FILM,
     OPTION_REPLICATES,
@@ -284,6 +303,11 @@ static const char *read_value(request *wish, int option, const char *value)
         return read_vector(value, &wish->gravity) ? NULL : "give x,y,z, in L per frame squared";
     case OPTION_TIME_STEP:
         return read_number(value, &wish->time_step) ? NULL : "give a number, of frames";
+    case OPTION_STEP:
+        return read_number(value, &wish->step) ? NULL : "give a number, of frames";
+    case OPTION_SAMPLED:
+        wish->sampled = true;
+        return NULL;
     case OPTION_TRACE:
         wish->trace = value;
         return NULL;
@@ -320,6 +344,10 @@ static const char *clash(const request *wish)
         return "--until-ci and --shard keep what they simulate: name a directory with --out";
     if (!wish->out && wish->scenario_count > 1)
         return "one scenario at a time, or --out DIR to keep the results of several";
+    if (!isnan(wish->step) && !isnan(wish->time_step))
+        return "--step and --time-step both say how long a step is: leave out one of them";
+    if (wish->sampled && isnan(wish->step))
+        return "--sampled is about the paths within steps: say how long they are with --step K";
     if (wish->share > 0 && wish->jobs > 1)
         return "--until-ci is for times, --jobs for accuracy: leave out one of them";
     if (!wish->out && wish->choices.count > 1)
@@ -382,6 +410,7 @@ int mote_command_simulate(int argc, char **argv)
                     .restitution = MOTE_NONE,
                     .tolerance = MOTE_NONE,
                     .time_step = MOTE_NONE,
+                    .step = MOTE_NONE,
                     .seed = 1,
                     .replicates = 1,
                     .jobs = 1,

@@ -65,6 +65,7 @@ static void add_result(mote_approaches *sum, const mote_simulation_result *r)
     sum->approaches += r->approaches > 0;
     sum->passes_through += r->passes > 0;
     sum->deep_passes_through += r->deep_passes > 0;
+    sum->intersecting += r->intersections > 0;
     sum->contact_runs += r->approaches;
     sum->contact_runs_passed += r->passes;
     sum->steps += r->steps + 1;
@@ -72,6 +73,9 @@ static void add_result(mote_approaches *sum, const mote_simulation_result *r)
     sum->missed_steps += r->missed_steps;
     sum->false_steps += r->false_steps;
     sum->responses += r->responses;
+    sum->impacts += r->impacts;
+    sum->floor_pushes += r->pushes;
+    sum->floor_unproven += r->unproven;
     sum->truth_asked += r->truth_asked;
     sum->delay_sum += r->delay_sum;
     sum->delay_max = r->delay_max > sum->delay_max ? r->delay_max : sum->delay_max;
@@ -83,28 +87,33 @@ static void add_result(mote_approaches *sum, const mote_simulation_result *r)
     sum->query_ns += r->query_ns * ((double)r->steps + 1);
 }
 
-mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,
-                                     uint32_t wanted, mote_approaches *sum)
+mote_status mote_approaches_simulate(mote_scenario *scenario, const mote_approaches_plan *plan,
+                                     mote_approaches *sum)
 {
     mote_method_choice choice;
     mote_simulator *simulator = NULL;
     const mote_subject subject = {.scenario = scenario};
-    const mote_simulation_options options = mote_default_simulation_options(&subject);
-    mote_status status = mote_method_choice_read(method, &choice);
+    mote_simulation_options options = mote_default_simulation_options(&subject);
+    options.time_step = plan->step;
+    options.within = plan->within;
+    const uint32_t wanted = plan->wanted;
+    mote_status status = mote_method_choice_read(plan->method, &choice);
     if (status == MOTE_OK)
         status = mote_simulator_create(&subject, &choice, &options, &simulator);
     mote_approaches made = {0};
     for (uint32_t i = 0; status == MOTE_OK && made.approaches < wanted && i < 4 * wanted; ++i) {
         mote_rigid_state states[2];
-        const mote_simulation_start start =
+        mote_simulation_start start =
             mote_approach_draw(scenario, mote_simulator_masses(simulator), i, states);
+        start.steps = (uint32_t)ceil(start.steps / plan->step);
+        start.depth_unreported = plan->within != MOTE_STEPS_CONTINUOUS;
         mote_simulation_result result;
         status = mote_simulator_run(simulator, &start, NULL, &result);
         if (status == MOTE_OK)
             add_result(&made, &result);
         else
-            status = mote_fail(status, "%s, %s, approach %u: %s", scenario->name, method, i + 1,
-                               mote_error_text());
+            status = mote_fail(status, "%s, %s, approach %u: %s", scenario->name, plan->method,
+                               i + 1, mote_error_text());
     }
     mote_simulator_destroy(simulator);
     if (status != MOTE_OK)

@@ -26,6 +26,7 @@
     X(approaches)                                                                              \
     X(passes_through)      /* approaches with a run of contacts that was never reported */     \
     X(deep_passes_through) /* of those, with a vertex inside the other body at the time */     \
+    X(intersecting)        /* approaches in which the surfaces intersected at some time */     \
     X(contact_runs)        /* runs of contacts; an approach may have several */                \
     X(contact_runs_passed)                                                                     \
     X(steps)                                                                                   \
@@ -33,6 +34,9 @@
     X(missed_steps)                                                                            \
     X(false_steps)                                                                             \
     X(responses)                                                                               \
+    X(impacts)        /* found between the ends of steps */                                    \
+    X(floor_pushes)   /* of these, answered by a push */                                       \
+    X(floor_unproven) /* flights for which nothing was proven */                               \
     X(truth_asked)                                                                             \
     X(delay_sum) /* steps to the first report, over the reported runs */                       \
     X(delay_max)
@@ -56,6 +60,14 @@ typedef struct mote_approaches {
 #undef MOTE_APPROACHES_COUNT
 #undef MOTE_APPROACHES_FIGURE
 
+/* What is simulated. */
+typedef struct mote_approaches_plan {
+    const char *method; /* as on the command line */
+    uint32_t wanted;
+    double step; /* frames, and what happens within them */
+    mote_simulation_steps within;
+} mote_approaches_plan;
+
 /* Draws approach number index (from 0), the same for every method: masses[2] are the bodies'.
    states receives the start, and the result borrows it. */
 mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mote_mass *masses,
@@ -63,8 +75,8 @@ mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mo
 
 /* Simulates approaches 0, 1, ... until `wanted` of them came to a contact, or 4 * wanted were
    tried. */
-mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,
-                                     uint32_t wanted, mote_approaches *sum);
+mote_status mote_approaches_simulate(mote_scenario *scenario, const mote_approaches_plan *plan,
+                                     mote_approaches *sum);
 
 /* passes_through / approaches, and its exact binomial interval; MOTE_NONE without approaches.
  */

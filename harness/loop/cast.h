@@ -14,10 +14,16 @@ typedef struct mote_cast_kind {
     void (*destroy)(void *cast);
     void (*restart)(void *cast, const mote_simulation_start *start);
     const mote_body_state *(*show)(void *cast, uint32_t k, const mote_rigid_state *states);
+    /* Writes the weights of all bodies [count], in their own axes, coordinate by coordinate and
+       padded, `frames` after the beginning. What was shown is no longer valid. */
+    void (*weigh)(void *cast, double frames, double *const *weights);
     /* The most by which the bodies can have approached since the previous step; NULL:
        unknown. */
     double (*moved)(const void *cast);
 } mote_cast_kind;
+
+/* The weights of a state in its body's own axes, as above; the padding is left as it is. */
+void mote_cast_weights(const mote_body_state *state, double *weights);
 
 extern const mote_cast_kind mote_cast_pair, mote_cast_scene;
 

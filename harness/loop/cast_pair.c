@@ -5,6 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+void mote_cast_weights(const mote_body_state *state, double *weights)
+{
+    const size_t padded = state->weights.padded;
+    for (uint32_t j = 0; j < state->weights.count; ++j) {
+        const mote_vec3 w = mote_rotate_back(
+            &state->pose.rotation,
+            mote_vec3_make(state->weights.x[j], state->weights.y[j], state->weights.z[j]));
+        weights[j] = w.x;
+        weights[padded + j] = w.y;
+        weights[2 * padded + j] = w.z;
+    }
+}
+
 typedef struct pair_cast {
     const mote_scenario *scenario;
     const mote_simulation_options *options;
@@ -62,13 +75,14 @@ static void pair_restart(void *cast, const mote_simulation_start *start)
     ((pair_cast *)cast)->first = start->first;
 }
 
-/* The frame whose deformation step k shows: forwards, then backwards, and so on. */
-static double shown_place(const pair_cast *s, uint32_t k)
+/* The frame whose deformation is shown so many frames after the beginning: forwards, then
+   backwards, and so on. */
+static double shown_place(const pair_cast *s, double frames)
 {
     if (s->scenario->frames == 1)
         return 1;
     const double last = s->scenario->frames - 1.0;
-    const double place = fmod(s->first - 1.0 + k * s->options->time_step, 2 * last);
+    const double place = fmod(s->first - 1.0 + frames, 2 * last);
     return 1 + (place <= last ? place : 2 * last - place);
 }
 
@@ -123,7 +137,10 @@ static const mote_body_state *pair_show(void *cast, uint32_t k, const mote_rigid
     pair_cast *s = cast;
     memcpy(s->previous, s->state, sizeof s->previous);
     memcpy(s->state, states, sizeof s->state);
-    memcpy(s->body, mote_scenario_frame_at(s->scenario, s->buffer, shown_place(s, k))->body,
+    memcpy(s->body,
+           mote_scenario_frame_at(s->scenario, s->buffer,
+                                  shown_place(s, k * s->options->time_step))
+               ->body,
            sizeof s->body);
     for (int i = 0; i < 2; ++i) {
         mote_body_state *body = &s->body[i];
@@ -137,5 +154,14 @@ static const mote_body_state *pair_show(void *cast, uint32_t k, const mote_rigid
     return s->body;
 }
 
-const mote_cast_kind mote_cast_pair = {pair_create, pair_destroy, pair_restart, pair_show,
-                                       pair_moved};
+static void pair_weigh(void *cast, double frames, double *const *weights)
+{
+    pair_cast *s = cast;
+    const mote_frame *frame =
+        mote_scenario_frame_at(s->scenario, s->buffer, shown_place(s, frames));
+    for (int i = 0; i < 2; ++i)
+        mote_cast_weights(&frame->body[i], weights[i]);
+}
+
+const mote_cast_kind mote_cast_pair = {pair_create, pair_destroy, pair_restart,
+                                       pair_show,   pair_weigh,   pair_moved};

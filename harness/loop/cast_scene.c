@@ -49,5 +49,15 @@ static const mote_body_state *scene_show(void *cast, uint32_t k, const mote_rigi
     return s->frame.states;
 }
 
-const mote_cast_kind mote_cast_scene = {scene_create, scene_destroy, scene_restart, scene_show,
-                                        NULL};
+static void scene_weigh(void *cast, double frames, double *const *weights)
+{
+    scene_cast *s = cast;
+    const mote_pose still = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
+    for (uint32_t i = 0; i < s->bodies->count; ++i) {
+        mote_bodies_deform(s->bodies, i, 1 + frames, &still, &s->frame);
+        mote_cast_weights(&s->frame.states[i], weights[i]);
+    }
+}
+
+const mote_cast_kind mote_cast_scene = {scene_create, scene_destroy, scene_restart,
+                                        scene_show,   scene_weigh,   NULL};

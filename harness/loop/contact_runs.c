@@ -17,6 +17,7 @@ static const mote_near_pair *pair_of(const mote_near_pair *pairs, size_t count, 
 static void end_run(mote_contact_runs *runs, const mote_contact_run *run)
 {
     ++runs->approaches;
+    runs->intersections += run->intersects;
     runs->depth_max = fmax(runs->depth_max, run->depth);
     if (run->reported)
         return;
@@ -39,6 +40,7 @@ static mote_status count_contact(mote_contact_runs *runs, uint32_t k,
         runs->delay_max = delay > runs->delay_max ? delay : runs->delay_max;
     }
     const bool apart = truth->answer.distance > 0; /* then no vertex is inside */
+    run->intersects = run->intersects || !apart;
     if (apart || (runs->depth_unreported && run->reported))
         return MOTE_OK;
     return depth(context, truth->body, run->depth, &run->depth);

@@ -10,8 +10,9 @@
 typedef struct mote_contact_run {
     uint32_t body[2];
     uint32_t began;
-    bool reported; /* by the method */
-    double depth;  /* the deepest so far, absolute */
+    bool reported;   /* by the method */
+    bool intersects; /* at some step, by the truth */
+    double depth;    /* the deepest so far, absolute */
 } mote_contact_run;
 
 /* Zero-initialise, and set depth_unreported if wanted. */
@@ -27,6 +28,7 @@ typedef struct mote_contact_runs {
     uint64_t approaches;    /* runs that ended */
     uint64_t passes;        /* of these, never reported by the method */
     uint64_t deep_passes;   /* of these, with a vertex of one body inside the other */
+    uint64_t intersections; /* runs that ended, in which the surfaces intersected at a step */
     uint64_t delay_sum, delay_max;  /* steps from the beginning of a run to its first report */
     double depth_max, depth_passes; /* absolute */
 } mote_contact_runs;

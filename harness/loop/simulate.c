@@ -2,38 +2,15 @@
 
 #include "harness/base/memory.h"
 #include "harness/base/statistics.h"
-#include "harness/loop/contact_runs.h"
-#include "harness/loop/drift.h"
+#include "harness/loop/between.h"
+#include "harness/loop/simulate_state.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The last witnesses of a near pair while it was apart. */
-typedef struct gap {
-    uint32_t body[2];
-    bool known;
-    mote_vec3 witness[2];
-} gap;
-
-/* The state that a simulation keeps from step to step. */
-typedef struct simulation {
-    mote_simulator *simulator;
-    const mote_simulation_start *start;
-    mote_rigid_state *states;
-    const mote_body_state *shown;
-    mote_stage_pairs said, truth;
-    double lower;          /* of the distance between two bodies, proven */
-    gap *gaps, *next_gaps; /* of the near pairs, in pair order */
-    size_t gap_count, gap_capacity, next_capacity;
-    mote_contact_runs runs;
-    mote_drift_lost lost;
-    mote_drift drift;
-    mote_simulation_result result;
-} simulation;
-
 /* Updates gaps for the near pairs: from the current answer if they are apart, otherwise the
    last known one. */
-static void update_gaps(simulation *s)
+static void update_gaps(mote_simulation *s)
 {
     size_t old = 0;
     s->next_gaps =
@@ -41,8 +18,8 @@ static void update_gaps(simulation *s)
     for (size_t k = 0; k < s->said.count; ++k) {
         const mote_near_pair *pair = &s->said.pairs[k];
         const mote_answer *a = &pair->answer;
-        gap *made = &s->next_gaps[k];
-        *made = (gap){.body = {pair->body[0], pair->body[1]}};
+        mote_simulation_gap *made = &s->next_gaps[k];
+        *made = (mote_simulation_gap){.body = {pair->body[0], pair->body[1]}};
         while (old < s->gap_count && mote_pair_order(s->gaps[old].body, made->body) < 0)
             ++old;
         if (old < s->gap_count && mote_pair_order(s->gaps[old].body, made->body) == 0)
@@ -53,7 +30,7 @@ static void update_gaps(simulation *s)
             memcpy(made->witness, a->witness, sizeof made->witness);
         }
     }
-    gap *block = s->gaps;
+    mote_simulation_gap *block = s->gaps;
     const size_t capacity = s->gap_capacity;
     s->gaps = s->next_gaps;
     s->gap_capacity = s->next_capacity;
@@ -62,7 +39,7 @@ static void update_gaps(simulation *s)
     s->gap_count = s->said.count;
 }
 
-static mote_status respond(simulation *s, const gap *along)
+static mote_status respond(mote_simulation *s, const mote_simulation_gap *along)
 {
     const mote_simulator *simulator = s->simulator;
     if (!along->known)
@@ -91,7 +68,7 @@ static mote_status respond(simulation *s, const gap *along)
 /* A mote_contact_depth for two bodies as currently shown. */
 static mote_status depth_of(void *context, const uint32_t body[2], double above, double *depth)
 {
-    simulation *s = context;
+    mote_simulation *s = context;
     mote_simulator *simulator = s->simulator;
     uint32_t shape[2];
     mote_status status = MOTE_OK;
@@ -117,8 +94,8 @@ static mote_status depth_of(void *context, const uint32_t body[2], double above,
 }
 
 /* Reflects a coordinate of the velocity at a wall. */
-static void bounce(simulation *s, double mass, double centre, double room, double *velocity,
-                   double *lost)
+static void bounce(mote_simulation *s, double mass, double centre, double room,
+                   double *velocity, double *lost)
 {
     if (!((centre > room && *velocity > 0) || (centre < -room && *velocity < 0)))
         return;
@@ -127,24 +104,34 @@ static void bounce(simulation *s, double mass, double centre, double room, doubl
     ++s->result.bounces;
 }
 
-static mote_status move_on(simulation *s)
+void mote_simulation_bounce(mote_simulation *s)
 {
     const mote_simulator *simulator = s->simulator;
     const mote_vec3 *room = &simulator->room;
     mote_vec3 *lost = &s->lost.momentum;
-    mote_status status = MOTE_OK;
-    for (uint32_t i = 0; i < simulator->bodies.count && status == MOTE_OK; ++i) {
-        const mote_mass *mass = &simulator->masses[simulator->shape_of[i]];
+    for (uint32_t i = 0; i < simulator->bodies.count; ++i) {
+        const double mass = simulator->masses[simulator->shape_of[i]].mass;
         mote_rigid_state *state = &s->states[i];
-        status = mote_rigid_step(mass, simulator->gravity, simulator->options.time_step, state);
-        bounce(s, mass->mass, state->centre.x, room->x, &state->velocity.x, &lost->x);
-        bounce(s, mass->mass, state->centre.y, room->y, &state->velocity.y, &lost->y);
-        bounce(s, mass->mass, state->centre.z, room->z, &state->velocity.z, &lost->z);
+        bounce(s, mass, state->centre.x, room->x, &state->velocity.x, &lost->x);
+        bounce(s, mass, state->centre.y, room->y, &state->velocity.y, &lost->y);
+        bounce(s, mass, state->centre.z, room->z, &state->velocity.z, &lost->z);
     }
+}
+
+static mote_status move_on(mote_simulation *s, uint32_t k)
+{
+    const mote_simulator *simulator = s->simulator;
+    mote_status status = MOTE_OK;
+    if (simulator->between)
+        return mote_between_fly(simulator->between, s, k);
+    for (uint32_t i = 0; i < simulator->bodies.count && status == MOTE_OK; ++i)
+        status = mote_rigid_step(&simulator->masses[simulator->shape_of[i]], simulator->gravity,
+                                 simulator->options.time_step, &s->states[i]);
+    mote_simulation_bounce(s);
     return status;
 }
 
-static mote_status check_apart(const simulation *s)
+static mote_status check_apart(const mote_simulation *s)
 {
     const mote_simulator *simulator = s->simulator;
     for (size_t k = 0; k < s->truth.count; ++k) {
@@ -170,7 +157,7 @@ static bool some_contact(const mote_stage_pairs *list)
     return false;
 }
 
-static mote_status watch(const simulation *s, uint32_t k)
+static mote_status watch(const mote_simulation *s, uint32_t k)
 {
     if (!s->start->watch)
         return MOTE_OK;
@@ -185,8 +172,15 @@ static mote_status watch(const simulation *s, uint32_t k)
     return s->start->watch(s->start->context, &view);
 }
 
-/* One step: the truth, the method's answers, the response. */
-static mote_status step(simulation *s, uint32_t k)
+mote_status mote_simulation_look(mote_simulation *s, uint32_t step)
+{
+    const mote_status status =
+        mote_contact_runs_step(&s->runs, s->looks++, s->truth.pairs, s->truth.count,
+                               s->said.pairs, s->said.count, depth_of, s);
+    return status == MOTE_OK && step != UINT32_MAX ? watch(s, step) : status;
+}
+
+static mote_status look_at_step(mote_simulation *s, uint32_t k)
 {
     mote_stage *stage = s->simulator->stage;
     s->shown = mote_stage_show(stage, k, s->states);
@@ -195,12 +189,21 @@ static mote_status step(simulation *s, uint32_t k)
         status = mote_stage_ask_truth(stage, &s->truth, &s->result.truth_asked, &s->lower);
     if (status == MOTE_OK && k == 0)
         status = check_apart(s);
-    if (status == MOTE_OK)
-        status = mote_contact_runs_step(&s->runs, k, s->truth.pairs, s->truth.count,
-                                        s->said.pairs, s->said.count, depth_of, s);
-    if (status == MOTE_OK)
-        status = watch(s, k);
-    if (status != MOTE_OK)
+    return status == MOTE_OK ? mote_simulation_look(s, k) : status;
+}
+
+/* One step: the truth, the method's answers, the response. */
+static mote_status step(mote_simulation *s, uint32_t k)
+{
+    mote_between *between = s->simulator->between;
+    mote_status status = MOTE_OK;
+    if (!between)
+        status = look_at_step(s, k);
+    else
+        status = mote_between_begin(between, s, k);
+    if (status == MOTE_OK && between && k == 0)
+        status = check_apart(s);
+    if (status != MOTE_OK || s->simulator->options.within == MOTE_STEPS_CONTINUOUS)
         return status;
     s->result.near_pairs += (double)s->said.count;
     update_gaps(s);
@@ -212,7 +215,7 @@ static mote_status step(simulation *s, uint32_t k)
 }
 
 /* Whether the two bodies are far enough apart and separating. */
-static bool is_over(const simulation *s)
+static bool is_over(const mote_simulation *s)
 {
     if (!(s->start->apart > 0) || s->lower <= s->start->apart)
         return false;
@@ -220,7 +223,7 @@ static bool is_over(const simulation *s)
     return mote_dot(mote_sub(b->centre, a->centre), mote_sub(b->velocity, a->velocity)) >= 0;
 }
 
-static mote_status loop(simulation *s, mote_rigid_state *trace)
+static mote_status loop(mote_simulation *s, mote_rigid_state *trace)
 {
     const mote_simulator *simulator = s->simulator;
     const size_t count = simulator->bodies.count;
@@ -238,13 +241,13 @@ static mote_status loop(simulation *s, mote_rigid_state *trace)
         mote_drift_note(&s->drift, &watched, &s->lost, k * simulator->options.time_step);
         if (k == s->start->steps || is_over(s))
             return MOTE_OK;
-        status = move_on(s);
+        status = move_on(s, k);
         if (status != MOTE_OK)
             return status;
     }
 }
 
-static mote_simulation_result result_of(simulation *s)
+static mote_simulation_result result_of(mote_simulation *s)
 {
     mote_simulation_result result = s->result;
     const double length = s->simulator->bodies.length, steps = (double)result.steps + 1;
@@ -255,6 +258,7 @@ static mote_simulation_result result_of(simulation *s)
     result.approaches = s->runs.approaches;
     result.passes = s->runs.passes;
     result.deep_passes = s->runs.deep_passes;
+    result.intersections = s->runs.intersections;
     result.delay_sum = s->runs.delay_sum;
     result.delay_max = s->runs.delay_max;
     result.depth_max = s->runs.depth_max / length;
@@ -274,7 +278,9 @@ mote_status mote_simulator_run(mote_simulator *simulator, const mote_simulation_
     mote_status status = mote_stage_restart(simulator->stage, start);
     if (status != MOTE_OK)
         return status;
-    simulation s = {.simulator = simulator, .start = start};
+    if (simulator->between)
+        mote_between_restart(simulator->between);
+    mote_simulation s = {.simulator = simulator, .start = start};
     s.runs.depth_unreported = start->depth_unreported;
     s.states = mote_copy(start->states, simulator->bodies.count * sizeof *s.states);
     status = loop(&s, trace);

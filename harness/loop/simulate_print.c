@@ -32,12 +32,16 @@ static const figure figures[] = {
     FIGURE("approaches", approaches, SUM),
     FIGURE("passes_through", passes, SUM),
     FIGURE("deep_passes_through", deep_passes, SUM),
+    FIGURE("intersections", intersections, SUM),
     FIGURE("max_penetration", depth_max, DEEPEST),
     FIGURE("max_penetration_passes", depth_passes, DEEPEST),
     FIGURE("contact_steps", contact_steps, SUM),
     FIGURE("missed_steps", missed_steps, SUM),
     FIGURE("false_steps", false_steps, SUM),
     FIGURE("responses", responses, SUM),
+    FIGURE("impacts", impacts, SUM),
+    FIGURE("floor_pushes", pushes, SUM),
+    FIGURE("floor_unproven", unproven, SUM),
     FIGURE("bounces", bounces, SUM),
     FIGURE("delay_sum", delay_sum, SUM),
     FIGURE("delay_max", delay_max, LARGEST),
@@ -149,8 +153,9 @@ void mote_simulation_print(const char *scenario, uint32_t bodies, const char *me
                   scenario, method, bodies, result->steps, result->query_ns / 1e3);
     (void)fprintf(out,
                   "approaches %" PRIu64 ", passes through %" PRIu64 " (%" PRIu64
-                  " of them with a vertex inside)\n",
-                  result->approaches, result->passes, result->deep_passes);
+                  " of them with a vertex inside), intersecting %" PRIu64 "\n",
+                  result->approaches, result->passes, result->deep_passes,
+                  result->intersections);
     (void)fprintf(out,
                   "contact in %" PRIu64 " steps, missed in %" PRIu64 ", false in %" PRIu64
                   ", delay %" PRIu64 " at most\n",
@@ -161,6 +166,12 @@ void mote_simulation_print(const char *scenario, uint32_t bodies, const char *me
     if (bodies > 2)
         (void)fprintf(out, ", bounces off the walls %" PRIu64 ", near pairs %.3g a step",
                       result->bounces, result->near_pairs);
+    if (result->impacts > 0)
+        (void)fprintf(out,
+                      "\nimpacts between steps %" PRIu64
+                      ", pushed apart within the floor %" PRIu64
+                      ", left unproven for a floor %" PRIu64,
+                      result->impacts, result->pushes, result->unproven);
     (void)fprintf(out, "\ndrift: energy %.2g, momentum %.2g", result->energy_drift,
                   result->momentum_drift);
     if (!isnan(result->angular_drift))

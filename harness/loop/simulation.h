@@ -13,12 +13,29 @@
 #define MOTE_SIMULATION_STEP_MAX 1000.0
 #define MOTE_SIMULATION_STEPS_MAX 1000000u
 
+/* What happens within a step. */
+typedef enum mote_simulation_steps {
+    MOTE_STEPS_WHOLE,     /* a step is one step of the rigid motion, and nobody looks within */
+    MOTE_STEPS_SAMPLED,   /* bodies follow a path, in pieces of at most a frame; the method is
+                             asked at the ends of steps, the truth four times a frame */
+    MOTE_STEPS_CONTINUOUS /* the same, but impacts are found on the path and answered when they
+                             happen */
+} mote_simulation_steps;
+
+/* Within a step, the truth is compared with what was said this often. */
+#define MOTE_SIMULATION_LOOKS 4 /* a frame */
+
+/* A pair that touches again within this many frames of its last impact is pushed apart, so that
+   resting contact does not stall the loop. */
+#define MOTE_SIMULATION_FLOOR 1.0
+
 typedef struct mote_simulation_options {
     double density;     /* of all bodies, > 0 */
     double restitution; /* 0 .. 1 */
     double tolerance;   /* contact, in L: above 0, at most MOTE_SIMULATION_NEAR */
     mote_vec3 gravity;  /* L per frame squared; 0: none */
     double time_step;   /* frames by which motion and deformation advance per step, > 0 */
+    mote_simulation_steps within;
 } mote_simulation_options;
 
 /* Density 1, restitution 1, no gravity, the scenario's tolerance or, if that is 0, 0.005, one
@@ -69,10 +86,15 @@ typedef struct mote_simulation_result {
     uint64_t false_steps;   /* reported by the method without a true contact */
     uint64_t truth_asked;   /* steps at which the truth was computed because it was needed */
     uint64_t responses;     /* impacts that changed the motion */
+    uint64_t impacts;       /* found between the ends of steps */
+    uint64_t pushes;        /* of these, answered by a push: they came within the floor */
+    uint64_t unproven;      /* flights of a pair without a proof that it stays apart, since
+                               pushes did not help */
     uint64_t bounces;       /* at the walls */
     uint64_t approaches;    /* maximal runs of steps with a true contact */
     uint64_t passes;        /* of these, never reported by the method */
     uint64_t deep_passes;   /* of these, with a vertex of one body inside the other */
+    uint64_t intersections; /* runs in which the surfaces intersected */
     uint64_t delay_sum, delay_max; /* steps from the beginning of a run to its first report */
     double depth_max;              /* of L: deepest vertex inside another body */
     double depth_passes;           /* the same during passes only */

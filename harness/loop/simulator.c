@@ -1,9 +1,11 @@
 #include "harness/loop/simulator.h"
 
+#include "harness/loop/between.h"
 #include "harness/base/memory.h"
 #include "harness/scene/motion.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Makes a simulator with the bodies of the subject. */
 static mote_simulator *new_simulator(const mote_subject *subject,
@@ -106,6 +108,12 @@ mote_status mote_simulator_create(const mote_subject *subject, const mote_method
     mote_status status = mote_simulation_options_check(options);
     if (status == MOTE_OK && subject->bodies)
         status = mote_engine_check_choice(choice);
+    if (status == MOTE_OK && options->within == MOTE_STEPS_CONTINUOUS &&
+        strcmp(choice->method->name, "certified") != 0)
+        status = mote_fail(MOTE_EUNSUPPORTED,
+                           "%s does not find impacts between the ends of steps; choose "
+                           "certified, or sampled steps",
+                           choice->text);
     if (status != MOTE_OK)
         return status;
     mote_simulator *made = new_simulator(subject, choice, options);
@@ -116,6 +124,8 @@ mote_status mote_simulator_create(const mote_subject *subject, const mote_method
         start_pair(made, subject->scenario);
     if (status == MOTE_OK)
         status = mote_stage_create(subject, choice, &made->options, made->masses, &made->stage);
+    if (status == MOTE_OK)
+        status = mote_between_create(made, &made->between);
     if (status == MOTE_OK)
         *simulator = made;
     else
@@ -128,6 +138,7 @@ void mote_simulator_destroy(mote_simulator *simulator)
     if (!simulator)
         return;
     const size_t shapes = simulator->bodies.shape_count;
+    mote_between_destroy(simulator->between);
     mote_stage_destroy(simulator->stage);
     for (size_t k = 0; k < shapes; ++k)
         mote_deform_destroy(simulator->deform[k]);

@@ -31,6 +31,7 @@ typedef struct mote_simulator {
     mote_penetration **penetrations; /* [shapes][shapes], made at the same time */
     mote_vec3 *world[2];             /* vertices, room for those of any shape */
     mote_stage *stage;
+    struct mote_between *between; /* NULL: steps are whole */
 } mote_simulator;
 
 /* Makes the masses of the scenario's bodies, the method, and the exact method beside it:

@@ -89,6 +89,19 @@ const mote_body_state *mote_stage_show(mote_stage *stage, uint32_t k,
     return stage->shown;
 }
 
+const mote_body_state *mote_stage_see(mote_stage *stage, const mote_body_state *states,
+                                      double moved)
+{
+    stage->shown = states;
+    stage->lower = fmax(0, stage->lower - moved);
+    return states;
+}
+
+void mote_stage_weigh(mote_stage *stage, double frames, double *const *weights)
+{
+    stage->kind->weigh(stage->cast, frames, weights);
+}
+
 static mote_status ask(mote_engine *engine, const mote_body_state *shown,
                        mote_stage_pairs *answers)
 {

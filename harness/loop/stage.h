@@ -28,6 +28,15 @@ mote_status mote_stage_restart(mote_stage *stage, const mote_simulation_start *s
 const mote_body_state *mote_stage_show(mote_stage *stage, uint32_t k,
                                        const mote_rigid_state *states);
 
+/* The same for states that the caller keeps until the next question. moved: of two bodies, the
+   most by which they can have approached since those shown before; infinite: unknown. */
+const mote_body_state *mote_stage_see(mote_stage *stage, const mote_body_state *states,
+                                      double moved);
+
+/* Writes the weights of all bodies [count], in their own axes ([3][padded]; the padding is left
+   as it is), so many frames after the beginning. Bodies shown before must be shown again. */
+void mote_stage_weigh(mote_stage *stage, double frames, double *const *weights);
+
 /* The method's answers for the bodies shown; its time is added to *ns. */
 mote_status mote_stage_ask_method(mote_stage *stage, mote_stage_pairs *said, double *ns);
 

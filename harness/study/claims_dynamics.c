@@ -10,6 +10,8 @@
    only reported. 0: left out. */
 static uint32_t approaches_of(const mote_dynamics_row *row, bool quick)
 {
+    if (row->within != MOTE_STEPS_WHOLE)
+        return 0; /* the claim is about particles */
     const bool decides = row->law && row->n >= 3 && row->n <= 5;
     if (row->law ? !decides && row->n != 8 : strncmp(row->method, "fcl", 3) == 0)
         return 0;
@@ -33,8 +35,10 @@ mote_status mote_claim_closed_loop(mote_study *study, mote_claim *claim)
             continue;
         status = mote_study_scene(study, row->scene, &subject);
         if (status == MOTE_OK)
-            status = mote_approaches_simulate(subject->scenario, row->method, row->wanted,
-                                              &row->sum);
+            status = mote_approaches_simulate(
+                subject->scenario,
+                &(mote_approaches_plan){row->method, row->wanted, row->step, row->within},
+                &row->sum);
         const char *failure = status == MOTE_OK ? mote_dynamics_failure(row) : NULL;
         if (failure)
             status = mote_fail(MOTE_ENUMERIC, "%s, %s: %s", row->scene, row->method, failure);

@@ -8,10 +8,12 @@
 /* One method on one scene. */
 typedef struct mote_dynamics_row {
     const char *scene;
-    const char *law;     /* of the paper's particles; NULL for other methods */
-    char method[64];     /* as on the command line */
-    uint32_t n;          /* particles per body; 0 for methods without particles */
-    uint32_t wanted;     /* number of approaches that should come to a contact */
+    const char *law; /* of the paper's particles; NULL for other methods */
+    char method[64]; /* as on the command line */
+    uint32_t n;      /* particles per body; 0 for methods without particles */
+    uint32_t wanted; /* number of approaches that should come to a contact */
+    double step;     /* frames, and what happens within them */
+    mote_simulation_steps within;
     bool exact;          /* an exact method: must let nothing pass through */
     bool paper;          /* whether the scene is one of the paper's */
     mote_approaches sum; /* what was measured */
@@ -19,12 +21,17 @@ typedef struct mote_dynamics_row {
     char commit[64];     /* commit of the sources; "" if unknown */
 } mote_dynamics_row;
 
+/* A row's name: its method, and what happens within its steps. */
+#define MOTE_DYNAMICS_LABEL 96
+void mote_dynamics_label(const mote_dynamics_row *row, char label[MOTE_DYNAMICS_LABEL]);
+
 /* The amount to measure. */
 typedef struct mote_dynamics_size {
     bool quick;          /* the paper's scenes with 100 approaches per row (FCL: 20); otherwise
                             1,000, 200 for FCL, and further laws and scenes */
     uint32_t approaches; /* this many for every row, unless 0 */
     const char *scene;   /* only this scene, unless NULL */
+    double step; /* only rows of sampled and continuous steps of this many frames, unless 0 */
 } mote_dynamics_size;
 
 /* Makes every row of the study, scene by scene; the caller frees *rows. MOTE_EINVAL for a scene

@@ -21,8 +21,9 @@ typedef struct study {
     char program[20]; /* hash of the program, in hexadecimal */
     char commit[64];  /* of this program's sources, or "" */
     bool quick;
-    bool keep; /* also accept rows measured by another build of the program */
-    int lock;  /* a file with a byte for each row, locked while the row is measured */
+    bool keep;      /* also accept rows measured by another build of the program */
+    bool particles; /* whether rows of them are measured */
+    int lock;       /* a file with a byte for each row, locked while the row is measured */
     mote_dynamics_row *rows;
     size_t count;
     mote_scenario *scenario; /* loaded last */
@@ -31,7 +32,9 @@ typedef struct study {
 /* "rows/ww-particle-paper-n-3-law-log.json"; the caller frees it. */
 static char *row_name(const mote_dynamics_row *row)
 {
-    char *name = mote_format("rows/%s-%s.json", row->scene, row->method);
+    char label[MOTE_DYNAMICS_LABEL];
+    mote_dynamics_label(row, label);
+    char *name = mote_format("rows/%s-%s.json", row->scene, label);
     for (char *c = name + strlen("rows/"); *c; ++c) {
         if (!isalnum((unsigned char)*c) && *c != '.')
             *c = '-';
@@ -97,15 +100,20 @@ static mote_status measure(study *s, mote_dynamics_row *row)
         strftime(row->measured, sizeof row->measured, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         row->measured[0] = '\0';
     (void)snprintf(row->commit, sizeof row->commit, "%s", s->commit);
+    char label[MOTE_DYNAMICS_LABEL];
+    mote_dynamics_label(row, label);
     mote_status status = load(s, row->scene);
     if (status == MOTE_OK)
-        status = mote_approaches_simulate(s->scenario, row->method, row->wanted, &row->sum);
+        status = mote_approaches_simulate(
+            s->scenario,
+            &(mote_approaches_plan){row->method, row->wanted, row->step, row->within},
+            &row->sum);
     if (status == MOTE_OK)
         status = store(s, row);
     if (status == MOTE_OK)
-        (void)fprintf(stderr, "dynamics: %s, %s: %u passes of %u, %.1f s\n", row->scene,
-                      row->method, (unsigned)row->sum.passes_through,
-                      (unsigned)row->sum.approaches, (double)(mote_clock_ns() - start) * 1e-9);
+        (void)fprintf(stderr, "dynamics: %s, %s: %u passes of %u, %.1f s\n", row->scene, label,
+                      (unsigned)row->sum.passes_through, (unsigned)row->sum.approaches,
+                      (double)(mote_clock_ns() - start) * 1e-9);
     return status;
 }
 
@@ -113,8 +121,9 @@ static mote_status measure(study *s, mote_dynamics_row *row)
    share a byte merely wait for each other. */
 static off_t byte_of(const mote_dynamics_row *row)
 {
-    char name[160];
-    (void)snprintf(name, sizeof name, "%s %s", row->scene, row->method);
+    char name[160], label[MOTE_DYNAMICS_LABEL];
+    mote_dynamics_label(row, label);
+    (void)snprintf(name, sizeof name, "%s %s", row->scene, label);
     return (off_t)(mote_hash_text(name) & 0x7fffffff);
 }
 
@@ -228,12 +237,14 @@ static json_t *failures_of(const study *s)
     for (size_t i = 0; i < s->count; ++i) {
         const mote_dynamics_row *row = &s->rows[i];
         const char *what = mote_dynamics_failure(row);
+        char label[MOTE_DYNAMICS_LABEL];
+        mote_dynamics_label(row, label);
         if (!what)
             continue;
         (void)json_array_append_new(failures,
                                     json_pack("{s:s, s:s, s:s}", "scenario", row->scene,
-                                              "method", row->method, "what", what));
-        (void)fprintf(stderr, "mote: dynamics: %s, %s: %s\n", row->scene, row->method, what);
+                                              "method", label, "what", what));
+        (void)fprintf(stderr, "mote: dynamics: %s, %s: %s\n", row->scene, label, what);
     }
     return failures;
 }
@@ -274,8 +285,10 @@ static mote_status report(const study *s, bool *met)
             mote_dynamics_claim_add(&claim, &s->rows[i]);
     }
     mote_dynamics_print(s->rows, s->count);
-    (void)printf("\n");
-    mote_claim_print(&claim);
+    if (s->particles) {
+        (void)printf("\n");
+        mote_claim_print(&claim);
+    }
     json_t *failures = failures_of(s);
     *met = json_array_size(failures) == 0;
     mote_status status = write_json(s, &claim, failures);
@@ -290,7 +303,11 @@ static mote_status report(const study *s, bool *met)
 mote_status mote_study_dynamics(const char *directory, const mote_dynamics_size *size,
                                 uint32_t jobs, uint64_t program, bool keep, bool *met)
 {
-    study s = {.directory = directory, .quick = size->quick, .keep = keep, .lock = -1};
+    study s = {.directory = directory,
+               .quick = size->quick,
+               .keep = keep,
+               .particles = !(size->step > 0),
+               .lock = -1};
     read_commit(directory, s.commit, sizeof s.commit);
     (void)snprintf(s.program, sizeof s.program, "%016" PRIx64, program);
     mote_status status = mote_dynamics_plan(size, &s.rows, &s.count);

@@ -1,0 +1,95 @@
+/* A box around a body over a whole piece of its path.
+
+   In a piece, a vertex of a group is at c + R (m - pivot + d), where c lies in the hull of its
+   control points, m is the middle of the group's ball at rest, and |d| is at most the ball's
+   radius plus sum_j most_j |w_j|, with the largest of w_j's control points. With W a bound of
+   the angle by which R has turned since the start of the piece, R (m - pivot) is within min(W,
+   2) |m - pivot| of R_0 (m - pivot), since a chord is no longer than its arc, and within |m -
+   pivot| of 0. Either box holds the group, so that their intersection does; a body that turns
+   far is held by the second, one that hardly turns by the first. */
+#include "core/impact/impact_swept.h"
+
+#include "core/body/path_place.h"
+
+/* How far the weights of a piece move the vertices of group g, at most. */
+static double displaced(const mote_impact_groups *groups, const mote_body *body,
+                        const mote_path_piece *piece, uint32_t g)
+{
+    const size_t count = body->field->count, padded = body->field->padded;
+    double sum = 0;
+    for (size_t j = 0; piece->weights && j < count; ++j) {
+        double most = 0;
+        for (size_t i = 0; i < 4; ++i) {
+            const double *w = piece->weights + 3 * padded * i + j;
+            const double x = w[0], y = w[padded], z = w[2 * padded];
+            most = fmax(most, x * x + y * y + z * z);
+        }
+        sum += groups->most[j * groups->padded + g] * sqrt(most);
+    }
+    return sum;
+}
+
+/* A bound of the angle by which a piece turns. */
+static double turned(const mote_path_piece *piece)
+{
+    if (piece->spins)
+        return mote_length(piece->spin);
+    double rate = 0;
+    for (int i = 0; i < 3; ++i) {
+        const mote_quaternion a = piece->turn[i], b = piece->turn[i + 1];
+        const double w = b.w - a.w, x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+        rate = fmax(rate, 3 * sqrt(w * w + x * x + y * y + z * z));
+    }
+    const double least = mote_path_least_turn(piece);
+    return least > 0 ? 2 * rate / least : HUGE_VAL;
+}
+
+static void widen(double low, double high, double *box_low, double *box_high)
+{
+    *box_low = fmin(*box_low, low);
+    *box_high = fmax(*box_high, high);
+}
+
+/* Adds a ball's range along an axis: of middle `at`, within `reach` of it, and within `far` of
+   0, around the control points' range. */
+static void add_range(double at, double reach, double far, const double centre[2], double *low,
+                      double *high)
+{
+    widen(centre[0] + fmax(at - reach, -far), centre[1] + fmin(at + reach, far), low, high);
+}
+
+void mote_impact_swept_box(const mote_impact_groups *groups, const mote_body *body,
+                           const mote_path *path, uint32_t k, mote_scene_box *box)
+{
+    const mote_path_piece *piece = &path->pieces[k];
+    const mote_mat3 start = mote_path_rotation(piece, 0);
+    const double angle = fmin(turned(piece), 2);
+    double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL},
+           z[2] = {HUGE_VAL, -HUGE_VAL}, size = mote_length(path->pivot) + groups->size;
+    for (int i = 0; i < 4; ++i) {
+        const mote_vec3 c = piece->centre[i];
+        widen(c.x, c.x, &x[0], &x[1]);
+        widen(c.y, c.y, &y[0], &y[1]);
+        widen(c.z, c.z, &z[0], &z[1]);
+        size = fmax(size, mote_length(c));
+    }
+    mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double grown = 0;
+    for (uint32_t g = 0; g < groups->count; ++g) {
+        const mote_vec3 arm = mote_sub(groups->middle[g], path->pivot);
+        const mote_vec3 at = mote_rotate(&start, arm);
+        const double moved = displaced(groups, body, piece, g);
+        const double ball = groups->radius[g] + moved, length = mote_length(arm);
+        add_range(at.x, angle * length + ball, length + ball, x, &low.x, &high.x);
+        add_range(at.y, angle * length + ball, length + ball, y, &low.y, &high.y);
+        add_range(at.z, angle * length + ball, length + ball, z, &low.z, &high.z);
+        grown = fmax(grown, moved);
+    }
+    /* more than the rounding of positions (impact_rate.c) and of these sums */
+    const double spin = piece->spins ? mote_length(piece->spin) : 0;
+    const double margin =
+        (size + grown) * (0x1p-40 * (1 + body->field->most / 1024.0) + 0x1p-48 * spin);
+    box->low = mote_vec3_make(low.x - margin, low.y - margin, low.z - margin);
+    box->high = mote_vec3_make(high.x + margin, high.y + margin, high.z + margin);
+}
