@@ -16,17 +16,18 @@ static double displaced(const mote_impact_groups *groups, const mote_body *body,
                         const mote_path_piece *piece, uint32_t g)
 {
     const size_t count = body->field->count, padded = body->field->padded;
-    double sum = 0;
+    double sum = 0, all = 0;
     for (size_t j = 0; piece->weights && j < count; ++j) {
         double most = 0;
         for (size_t i = 0; i < 4; ++i) {
             const double *w = piece->weights + 3 * padded * i + j;
             const double x = w[0], y = w[padded], z = w[2 * padded];
             most = fmax(most, x * x + y * y + z * z);
+            all += x + y + z;
         }
         sum += groups->most[j * groups->padded + g] * sqrt(most);
     }
-    return sum;
+    return sum + 0 * all; /* NaN if one is not finite, which fmax would leave out */
 }
 
 /* A bound of the angle by which a piece turns. */
@@ -71,7 +72,8 @@ void mote_impact_swept_box(const mote_impact_groups *groups, const mote_body *bo
         widen(c.x, c.x, &x[0], &x[1]);
         widen(c.y, c.y, &y[0], &y[1]);
         widen(c.z, c.z, &z[0], &z[1]);
-        size = fmax(size, mote_length(c));
+        const mote_quaternion q = piece->turn[piece->spins ? 0 : i];
+        size += mote_length(c) + 0 * (q.w + q.x + q.y + q.z); /* NaN as above */
     }
     mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};

@@ -17,19 +17,22 @@
 #define CLEAR 1.001
 
 /* The part of the tolerance below which a pair is no longer kept apart by proof. */
-#define LEAST 1e-4
+#define LEAST 1e-6
 
 /* Frames over which the speed of an impact is measured. */
 #define INSTANT 1e-3
 
-/* A push opens this part of the tolerance in a floor's time. */
+/* A push opens this part of the tolerance in a floor's time, and each one that follows within
+   the floor twice as much as the one before, up to so many times. */
 #define PUSH 0.125
+#define DOUBLINGS 8
 
 /* A pair that has come to an impact, until it is apart again. */
 typedef struct touching {
     uint32_t body[2];
     double last;      /* time of the last impact, in frames */
     uint32_t impacts; /* in this step */
+    uint32_t pushes;  /* one after the other */
 } touching;
 
 struct mote_between {
@@ -256,8 +259,8 @@ static mote_status closing_at(const mote_between *b, const uint32_t body[2], dou
     return status;
 }
 
-/* Enters an impact; true if the pair's last one was within the floor. */
-static bool enter(mote_between *b, const uint32_t body[2], double now, touching **entered)
+/* Enters an impact. */
+static touching *enter(mote_between *b, const uint32_t body[2], double now)
 {
     const size_t k = place_of(b, body);
     if (!is_at(b, k, body)) {
@@ -268,16 +271,17 @@ static bool enter(mote_between *b, const uint32_t body[2], double now, touching 
         ++b->touching_count;
         b->touching[k] = (touching){.body = {body[0], body[1]}, .last = -HUGE_VAL};
     }
-    *entered = &b->touching[k];
-    const bool again = now - b->touching[k].last < b->floor;
-    b->touching[k].last = now;
-    ++b->touching[k].impacts;
-    return again;
+    touching *t = &b->touching[k];
+    t->pushes = now - t->last < b->floor ? t->pushes + 1 : 0;
+    t->last = now;
+    ++t->impacts;
+    return t;
 }
 
-/* Changes the motion of two bodies by their impact. speed: at which the gap closes. */
+/* Changes the motion of two bodies by their impact. speed: at which the gap closes; pushes: how
+   many impacts have followed each other within the floor. */
 static mote_status answer(mote_between *b, mote_simulation *s,
-                          const mote_impact_scene_found *found, double speed, bool push)
+                          const mote_impact_scene_found *found, double speed, uint32_t pushes)
 {
     const mote_simulator *simulator = s->simulator;
     const double e = simulator->options.restitution;
@@ -297,8 +301,9 @@ static mote_status answer(mote_between *b, mote_simulation *s,
     }
     const double closing = along[0] - along[1];
     double own = rigid ? 0 : speed - closing; /* of the surfaces */
-    if (push) {
-        const double least = fmax(closing + own, 0) + PUSH * b->tolerance / b->floor;
+    if (pushes > 0) {
+        const double opens = ldexp(PUSH, pushes - 1 < DOUBLINGS ? (int)pushes - 1 : DOUBLINGS);
+        const double least = fmax(closing + own, 0) + opens * b->tolerance / b->floor;
         own = fmax(own, least / (1 + e) - closing);
     }
     mote_impact impact;
@@ -306,7 +311,7 @@ static mote_status answer(mote_between *b, mote_simulation *s,
     if (status == MOTE_OK) {
         s->result.responses += impact.approaching;
         s->lost.energy += impact.energy;
-        s->result.pushes += push;
+        s->result.pushes += pushes > 0;
     }
     return status;
 }
@@ -316,9 +321,8 @@ static mote_status take_impact(mote_between *b, mote_simulation *s,
                                const mote_impact_scene_found *found, double now,
                                double duration)
 {
-    touching *t;
+    touching *t = enter(b, found->body, now);
     double speed = 0;
-    const bool again = enter(b, found->body, now, &t);
     ++s->result.impacts;
     mote_status status = look(b, s, found->impact.from, now, false);
     mote_flight_end(b->flight, found->impact.from, s->states);
@@ -328,7 +332,7 @@ static mote_status take_impact(mote_between *b, mote_simulation *s,
     }
     if (status == MOTE_OK)
         status = closing_at(b, found->body, found->impact.from, duration, &speed);
-    return status == MOTE_OK ? answer(b, s, found, speed, again) : status;
+    return status == MOTE_OK ? answer(b, s, found, speed, t->pushes) : status;
 }
 
 static double now_ns(void)

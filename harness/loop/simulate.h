@@ -12,7 +12,8 @@
    of mass leaves the scenario's room for middles; walls do not change its spin. MOTE_EINVAL if
    bodies are in contact at the start (there is no normal then), MOTE_EUNSUPPORTED if the method
    gives neither distance nor contact, or reports a contact of bodies for which it has never
-   given witness points. The method restarts with each call. */
+   given witness points; with sampled steps such bodies go on as they are. The method restarts
+   with each call. */
 mote_status mote_simulator_run(mote_simulator *simulator, const mote_simulation_start *start,
                                mote_rigid_state *trace, mote_simulation_result *result);
 

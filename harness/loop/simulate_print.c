@@ -20,11 +20,16 @@ typedef struct figure {
     const char *key;
     size_t offset; /* in mote_simulation_result: of a uint64_t for counts, otherwise a double */
     joining joining;
+    bool later; /* 0 in files from before there were steps with paths */
 } figure;
 
 #define FIGURE(key, name, joining)                                                             \
     {                                                                                          \
-        key, offsetof(mote_simulation_result, name), joining                                   \
+        key, offsetof(mote_simulation_result, name), joining, false                            \
+    }
+#define LATER(key, name)                                                                       \
+    {                                                                                          \
+        key, offsetof(mote_simulation_result, name), SUM, true                                 \
     }
 
 static const figure figures[] = {
@@ -32,16 +37,16 @@ static const figure figures[] = {
     FIGURE("approaches", approaches, SUM),
     FIGURE("passes_through", passes, SUM),
     FIGURE("deep_passes_through", deep_passes, SUM),
-    FIGURE("intersections", intersections, SUM),
+    LATER("intersections", intersections),
     FIGURE("max_penetration", depth_max, DEEPEST),
     FIGURE("max_penetration_passes", depth_passes, DEEPEST),
     FIGURE("contact_steps", contact_steps, SUM),
     FIGURE("missed_steps", missed_steps, SUM),
     FIGURE("false_steps", false_steps, SUM),
     FIGURE("responses", responses, SUM),
-    FIGURE("impacts", impacts, SUM),
-    FIGURE("floor_pushes", pushes, SUM),
-    FIGURE("floor_unproven", unproven, SUM),
+    LATER("impacts", impacts),
+    LATER("floor_pushes", pushes),
+    LATER("floor_unproven", unproven),
     FIGURE("bounces", bounces, SUM),
     FIGURE("delay_sum", delay_sum, SUM),
     FIGURE("delay_max", delay_max, LARGEST),
@@ -99,6 +104,8 @@ bool mote_simulation_read(const json_t *object, mote_simulation_result *result)
         const figure *f = &figures[k];
         const json_t *value = json_object_get(object, f->key);
         const json_int_t count = json_integer_value(value);
+        if (!value && f->later)
+            continue;
         if (is_count(f)) {
             whole = json_is_integer(value) && count >= 0 && count <= COUNT_MAX;
             *count_of(&read, f) = (uint64_t)count;

@@ -26,6 +26,13 @@ static const mote_dynamics_row *find(const mote_dynamics_row *rows, size_t count
     return NULL;
 }
 
+static mote_status simulate_approaches(mote_scenario *scenario, const char *method,
+                                       uint32_t wanted, mote_approaches *sum)
+{
+    const mote_approaches_plan plan = {.method = method, .wanted = wanted, .step = 1};
+    return mote_approaches_simulate(scenario, &plan, sum);
+}
+
 TEST(plan_full_has_what_the_claim_needs)
 {
     static const char *const scenes[] = {"tt", "mv", "ww", "vv", "tw", "comb"};
@@ -52,6 +59,62 @@ TEST(plan_full_has_what_the_claim_needs)
             assert_true(find(rows, count, scenes[s], "fcl-aabb:seed=previous,queue=64")->exact);
     }
     free(rows);
+}
+
+/* Sampled and continuous steps of each length, by themselves if asked for. */
+TEST(plan_has_steps_with_paths)
+{
+    mote_dynamics_size size = {0};
+    mote_dynamics_row *rows;
+    size_t count;
+    uint32_t continuous = 0, sampled = 0, whole = 0, longest = 0;
+    assert_int_equal(mote_dynamics_plan(&size, &rows, &count), MOTE_OK);
+    for (size_t i = 0; i < count; ++i) {
+        continuous += rows[i].within == MOTE_STEPS_CONTINUOUS;
+        sampled += rows[i].within == MOTE_STEPS_SAMPLED;
+        whole += rows[i].within == MOTE_STEPS_WHOLE;
+        if (rows[i].within == MOTE_STEPS_CONTINUOUS && rows[i].step > 29)
+            longest += rows[i].wanted;
+    }
+    assert_int_equal(continuous, 40);
+    assert_int_equal(sampled, 40);
+    assert_true(whole > 100);
+    assert_int_equal(longest, 4400);
+    free(rows);
+    size.step = 10;
+    assert_int_equal(mote_dynamics_plan(&size, &rows, &count), MOTE_OK);
+    assert_int_equal(count, 20);
+    for (size_t i = 0; i < count; ++i)
+        assert_true(rows[i].within != MOTE_STEPS_WHOLE && fabs(rows[i].step - 10) < 1e-9);
+    free(rows);
+    size.step = 7;
+    assert_int_equal(mote_dynamics_plan(&size, &rows, &count), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "7 frames a step"));
+}
+
+/* The same approaches pass where long steps are sampled, and do not where impacts are found. */
+TEST(approaches_simulate_continuous_lets_nothing_pass)
+{
+    mote_scenario *scenario;
+    assert_int_equal(mote_scenario_load("tt", &scenario), MOTE_OK);
+    mote_dynamics_row row[3] = {{.within = MOTE_STEPS_WHOLE}};
+    for (int w = MOTE_STEPS_SAMPLED; w <= MOTE_STEPS_CONTINUOUS; ++w) {
+        row[w].wanted = 12;
+        row[w].within = (mote_simulation_steps)w;
+        const mote_approaches_plan plan = {"certified", 12, 30, row[w].within};
+        assert_int_equal(mote_approaches_simulate(scenario, &plan, &row[w].sum), MOTE_OK);
+    }
+    const mote_approaches *a = &row[MOTE_STEPS_SAMPLED].sum;
+    const mote_approaches *b = &row[MOTE_STEPS_CONTINUOUS].sum;
+    assert_true(a->passes_through > 0 && a->intersecting > 6 && a->impacts == 0);
+    assert_true(b->approaches == 12 && b->impacts >= 12);
+    assert_int_equal(b->passes_through + b->intersecting + b->floor_unproven, 0);
+    assert_null(mote_dynamics_failure(&row[MOTE_STEPS_CONTINUOUS]));
+    row[MOTE_STEPS_CONTINUOUS].sum.intersecting = 1;
+    assert_non_null(strstr(mote_dynamics_failure(&row[MOTE_STEPS_CONTINUOUS]), "intersect"));
+    row[MOTE_STEPS_CONTINUOUS].sum.passes_through = 1;
+    assert_non_null(strstr(mote_dynamics_failure(&row[MOTE_STEPS_CONTINUOUS]), "pass"));
+    mote_scenario_destroy(scenario);
 }
 
 TEST(plan_unknown_scene_refused)
@@ -102,7 +165,7 @@ TEST(approaches_json_comes_back)
     mote_scenario *scenario;
     mote_approaches sum, again;
     assert_int_equal(mote_scenario_load("tt", &scenario), MOTE_OK);
-    assert_int_equal(mote_approaches_simulate(scenario, "particle:n=8", 3, &sum), MOTE_OK);
+    assert_int_equal(simulate_approaches(scenario, "particle:n=8", 3, &sum), MOTE_OK);
     assert_true(sum.approaches == 3 && sum.trials >= 3 && sum.contact_runs >= 3);
     assert_true(sum.steps > 50 && sum.truth_asked < sum.steps && sum.responses > 0);
     json_t *object = mote_approaches_json(&sum);
@@ -222,16 +285,15 @@ TEST(approaches_that_seldom_come_to_a_contact_end)
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load(OUT "/n.json", &scenario), MOTE_OK);
     mote_dynamics_row row = {.wanted = 3};
-    assert_int_equal(mote_approaches_simulate(scenario, "certified", 3, &row.sum), MOTE_OK);
+    assert_int_equal(simulate_approaches(scenario, "certified", 3, &row.sum), MOTE_OK);
     assert_int_equal(row.sum.trials, 12);
     assert_true(row.sum.approaches < 3 && row.sum.steps > 12);
     assert_non_null(strstr(mote_dynamics_failure(&row), "too few approaches"));
-    assert_int_equal(mote_approaches_simulate(scenario, "certified", 0, &row.sum), MOTE_OK);
+    assert_int_equal(simulate_approaches(scenario, "certified", 0, &row.sum), MOTE_OK);
     assert_int_equal(row.sum.trials, 0);
     assert_true(row.sum.query_ns == 0);
-    assert_int_equal(mote_approaches_simulate(scenario, "magic", 1, &row.sum), MOTE_EINVAL);
-    assert_int_equal(mote_approaches_simulate(scenario, "particle:n=9", 1, &row.sum),
-                     MOTE_EINVAL);
+    assert_int_equal(simulate_approaches(scenario, "magic", 1, &row.sum), MOTE_EINVAL);
+    assert_int_equal(simulate_approaches(scenario, "particle:n=9", 1, &row.sum), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "n, particle:n=9, approach 1: "));
     mote_scenario_destroy(scenario);
 }

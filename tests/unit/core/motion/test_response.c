@@ -96,6 +96,46 @@ TEST(respond_elastic_conserves_and_reverses)
     assert_true(momentum < 1e-13 && angular < 1e-12 && energy < 1e-12 && closing < 1e-11);
 }
 
+/* Surfaces that close the gap by `own` besides: afterwards it opens by what restitution gives
+   back of both, and what the bodies lost or gained is the energy that is told. */
+TEST(respond_deforming_reverses_the_gap_and_books_the_work)
+{
+    uint64_t seed = 5;
+    int gained = 0;
+    for (int i = 0; i < 2000; ++i) {
+        collision c = random_collision(&seed);
+        const collision before = c;
+        const double e = (i % 5) / 4.0, own = 0.3 * (i % 7) - 0.6;
+        const mote_mass *mass[2] = {&c.mass[0], &c.mass[1]};
+        mote_rigid_state *states[2] = {&c.state[0], &c.state[1]};
+        const double closing = closing_of(&before);
+        mote_impact impact;
+        assert_int_equal(
+            mote_respond_deforming(mass, c.point, c.normal, e, own, states, &impact), MOTE_OK);
+        assert_int_equal(impact.approaching, closing + own > 0);
+        if (!impact.approaching) {
+            assert_memory_equal(&c, &before, sizeof c);
+            continue;
+        }
+        assert_close(closing_of(&c) + own, -e * (closing + own), 1e-11);
+        assert_close(energy_of(&before) - energy_of(&c), impact.energy,
+                     1e-12 * (energy_of(&before) + energy_of(&c)));
+        gained += impact.energy < 0;
+    }
+    assert_true(gained > 100);
+}
+
+TEST(respond_deforming_refuses_a_speed_that_is_not_finite)
+{
+    uint64_t seed = 6;
+    collision c = random_collision(&seed);
+    const mote_mass *mass[2] = {&c.mass[0], &c.mass[1]};
+    mote_rigid_state *states[2] = {&c.state[0], &c.state[1]};
+    mote_impact impact;
+    assert_int_equal(mote_respond_deforming(mass, c.point, c.normal, 1, NAN, states, &impact),
+                     MOTE_EINVAL);
+}
+
 /* The impulse as printed in the paper, p = sign * m_e v n, and dp = p' - p. */
 static void apply_printed(collision *c, double sign)
 {

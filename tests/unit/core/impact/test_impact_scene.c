@@ -1,0 +1,317 @@
+/* The earliest impact among several bodies, against all pairs without a broad phase, against
+   fine samples, and the swept boxes against the vertices at many times. */
+#include "core/impact/impact_scene.h"
+
+#include "tests/support/impact_scene.h"
+#include "tests/support/solids.h"
+#include "tests/support/test.h"
+
+enum { BODIES = 9, SHAPES = 3 };
+
+typedef struct crowd {
+    impact_body of[BODIES]; /* those of one shape are equal but for their paths */
+    uint32_t shape_of[BODIES];
+    mote_path paths[BODIES];
+    mote_impact_scene *scene;
+    mote_impact_options options;
+    mote_random random;
+} crowd;
+
+static const impact_kind kinds[SHAPES] = {IMPACT_RIGID, IMPACT_CSRBF, IMPACT_SKIN};
+
+static mote_mesh *mesh_of(uint32_t shape)
+{
+    return shape == 0 ? impact_box(1, 0.5, 0.3) : make_torus(7, 4, 0.5 + 0.2 * shape);
+}
+
+/* Shapes are told apart by their numbers only, so that pairs come in both orders. */
+static void crowd_init(crowd *c, uint64_t seed, uint32_t pieces)
+{
+    const mote_body *shapes[SHAPES];
+    *c = (crowd){.random = {seed}};
+    for (uint32_t i = 0; i < BODIES; ++i) {
+        const uint32_t shape = (SHAPES - i % SHAPES) % SHAPES;
+        mote_random same = {100 + shape};
+        c->shape_of[i] = shape;
+        impact_body_init(&c->of[i], mesh_of(shape), kinds[shape], &same);
+        shapes[shape] = &c->of[i].body;
+    }
+    c->options = mote_default_impact_options(2);
+    c->options.pieces = pieces;
+    need(mote_impact_scene_create(shapes, SHAPES, c->shape_of, BODIES, &c->options,
+                                  &c->scene) == MOTE_OK);
+}
+
+static void crowd_free(crowd *c)
+{
+    mote_impact_scene_destroy(c->scene);
+    for (int i = 0; i < BODIES; ++i)
+        impact_body_free(&c->of[i]);
+}
+
+/* Bodies begin spread over a square and move as far as this. */
+static void move_at_random(crowd *c, double room, uint32_t pieces, double turn, bool spins)
+{
+    for (int i = 0; i < BODIES; ++i) {
+        const mote_vec3 from = mote_vec3_make(2.2 * (i % 3) - 2.2, 2.2 * (i / 3) - 2.2, 0);
+        const impact_wild w = {.pieces = pieces,
+                               .from = from,
+                               .to = mote_add(from, impact_vector(&c->random, room)),
+                               .stray = 0.2,
+                               .turn = turn,
+                               .spins = spins,
+                               .weights = c->shape_of[i] == 2 ? 0.02 : 0.1};
+        impact_path_random(&c->of[i], &w, &c->random);
+        c->paths[i] = c->of[i].path;
+    }
+}
+
+static mote_impact_scene_found ask_scene(crowd *c, const mote_impact_scene_question *q)
+{
+    mote_impact_scene_found found;
+    if (mote_impact_scene_query(c->scene, q, &found) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return found;
+}
+
+static mote_impact_scene_question question_of(const crowd *c, double tolerance)
+{
+    return (mote_impact_scene_question){.paths = c->paths, .end = 1, .tolerance = tolerance};
+}
+
+/* All pairs, each by a search of its own over the whole time. Returns the earliest. */
+static double earliest_of_all(const crowd *c, double tolerance, uint32_t body[2])
+{
+    double first = 2;
+    for (uint32_t j = 1; j < BODIES; ++j) {
+        for (uint32_t i = 0; i < j; ++i) {
+            const mote_body *const pair[2] = {&c->of[i].body, &c->of[j].body};
+            mote_impact_search *search;
+            mote_impact_found found;
+            need(mote_impact_create(pair, &c->options, &search) == MOTE_OK);
+            const mote_impact_question q = {
+                .path = {&c->paths[i], &c->paths[j]}, .end = 1, .tolerance = tolerance};
+            need(mote_impact_query(search, &q, &found) == MOTE_OK);
+            mote_impact_destroy(search);
+            if (found.outcome != MOTE_IMPACT_NONE && found.from < first) {
+                first = found.from;
+                body[0] = i;
+                body[1] = j;
+            }
+        }
+    }
+    return first;
+}
+
+TEST(mote_impact_scene_query_agrees_with_all_pairs)
+{
+    crowd c;
+    int hits = 0, misses = 0;
+    size_t near = 0;
+    crowd_init(&c, 3, 2);
+    for (int k = 0; k < 12; ++k) {
+        move_at_random(&c, k % 2 ? 3 : 0.2, 1 + (uint32_t)k % 2, 0.3 * (k % 5), k % 3 == 0);
+        const double tolerance = k % 4 ? 0.01 : 0;
+        const mote_impact_scene_question q = question_of(&c, tolerance);
+        const mote_impact_scene_found found = ask_scene(&c, &q);
+        uint32_t body[2] = {0, 0};
+        const double first = earliest_of_all(&c, tolerance, body);
+        near += found.near_pairs;
+        if (found.impact.outcome == MOTE_IMPACT_NONE) {
+            assert_true(first > 1 && found.impact.from >= 1);
+            ++misses;
+            continue;
+        }
+        ++hits;
+        assert_close(found.impact.from, first, 2e-6);
+        assert_int_equal(found.body[0], body[0]);
+        assert_int_equal(found.body[1], body[1]);
+    }
+    crowd_free(&c);
+    assert_true(hits > 2 && misses > 0);
+    assert_true(near < (size_t)12 * BODIES * (BODIES - 1) / 2 * 9 / 10);
+}
+
+/* The distance of two bodies at a time, by all pairs of triangles. */
+static double distance_at(crowd *c, const uint32_t body[2], double time)
+{
+    impact_scene pair = {.length = 1};
+    pair.of[0] = c->of[body[0]];
+    pair.of[1] = c->of[body[1]];
+    return impact_distance(&pair, time);
+}
+
+/* Nothing comes within the tolerance before the impact; then the two that are said do, and the
+   normal points from the first to the second. */
+TEST(mote_impact_scene_query_agrees_with_fine_samples)
+{
+    crowd c;
+    int hits = 0;
+    crowd_init(&c, 7, 2);
+    for (int k = 0; k < 4; ++k) {
+        move_at_random(&c, 3, 2, 0.5, k % 2 == 0);
+        const mote_impact_scene_question q = question_of(&c, 0.02);
+        const mote_impact_scene_found found = ask_scene(&c, &q);
+        for (int t = 0; t <= 25; ++t) {
+            for (uint32_t j = 1; j < BODIES; ++j) {
+                for (uint32_t i = 0; i < j; ++i)
+                    assert_true(distance_at(&c, (const uint32_t[]){i, j},
+                                            found.impact.from * t / 25) > 0.02 - 1e-12);
+            }
+        }
+        if (found.impact.outcome != MOTE_IMPACT_FOUND)
+            continue;
+        ++hits;
+        assert_true(distance_at(&c, found.body, found.impact.to) <= 0.02 + 1e-12);
+        const mote_vec3 gap = mote_sub(found.impact.witness[1], found.impact.witness[0]);
+        assert_close(mote_dot(gap, found.impact.normal), found.impact.distance, 1e-9);
+    }
+    crowd_free(&c);
+    assert_true(hits > 1);
+}
+
+static void check_inside(const mote_scene_box *box, mote_vec3 p)
+{
+    assert_true(box->low.x <= p.x && p.x <= box->high.x);
+    assert_true(box->low.y <= p.y && p.y <= box->high.y);
+    assert_true(box->low.z <= p.z && p.z <= box->high.z);
+}
+
+TEST(mote_impact_scene_boxes_hold_all_vertices_at_all_times)
+{
+    static const double turns[] = {0, 0.1, 1, 3, 40};
+    crowd c;
+    crowd_init(&c, 11, IMPACT_PIECES);
+    for (int k = 0; k < 20; ++k) {
+        const double begin = k % 3 ? 0 : 0.31, end = k % 4 ? 1 : 0.62;
+        mote_scene_box boxes[BODIES];
+        move_at_random(&c, 4, 1 + (uint32_t)k % IMPACT_PIECES, turns[k % 5], k % 2 == 0);
+        need(mote_impact_scene_boxes(c.scene, c.paths, begin, end, boxes) == MOTE_OK);
+        for (int i = 0; i < BODIES; ++i) {
+            const impact_body *b = &c.of[i];
+            for (int t = 0; t <= 40; ++t) {
+                mote_body_state state;
+                mote_path_state(&b->path, &b->body, begin + (end - begin) * t / 40, b->weights,
+                                &state);
+                for (uint32_t v = 0; v < b->mesh->vertex_count; ++v)
+                    check_inside(&boxes[i], mote_body_position(&b->body, &state, v));
+            }
+        }
+    }
+    crowd_free(&c);
+}
+
+/* A box that hardly moves has hardly a larger box; one that spins has that of its sphere. */
+TEST(mote_impact_scene_boxes_are_no_larger_than_they_must)
+{
+    crowd c;
+    mote_scene_box boxes[BODIES];
+    crowd_init(&c, 1, 1);
+    for (int i = 0; i < BODIES; ++i)
+        c.paths[i] = c.of[i].path; /* all stand still at the origin */
+    mote_path_piece *spinning = &c.of[3].piece[0];
+    spinning->spins = true;
+    spinning->spin = mote_vec3_make(0, 0, 100);
+    need(mote_impact_scene_boxes(c.scene, c.paths, 0, 1, boxes) == MOTE_OK);
+    const double radius = sqrt(0.5 * 0.5 + 0.25 * 0.25 + 0.15 * 0.15);
+    assert_int_equal(c.shape_of[0], 0);
+    assert_int_equal(c.shape_of[3], 0);
+    assert_true(boxes[0].high.x <= radius + 1e-9); /* the ball of its only group */
+    assert_true(boxes[3].high.x <= radius + 1e-9 && boxes[3].high.y >= 0.5);
+    crowd_free(&c);
+}
+
+TEST(mote_impact_scene_query_exceptions)
+{
+    crowd c;
+    crowd_init(&c, 5, 1);
+    for (int i = 0; i < BODIES; ++i) {
+        for (int k = 0; k < 4; ++k)
+            c.of[i].piece[0].centre[k] = mote_vec3_make(5 * i, 0, 0);
+        c.paths[i] = c.of[i].path;
+    }
+    /* Body 3, as body 0 a box of length 1, flies at it from 15 to 1.2: the gap ends at 0.2. */
+    mote_path_line(mote_vec3_make(15, 0, 8), mote_vec3_make(1.2, 0, 0),
+                   c.of[3].piece[0].centre);
+    mote_impact_exception e = {{0, 3}, 0.1};
+    mote_impact_scene_question q = question_of(&c, 0.5);
+    q.exceptions = &e;
+    assert_int_equal(ask_scene(&c, &q).impact.outcome, MOTE_IMPACT_FOUND);
+    q.exception_count = 1;
+    assert_int_equal(ask_scene(&c, &q).impact.outcome, MOTE_IMPACT_NONE);
+    e.tolerance = 0.3;
+    const mote_impact_scene_found near = ask_scene(&c, &q);
+    assert_int_equal(near.impact.outcome, MOTE_IMPACT_FOUND);
+    assert_int_equal(near.body[1], 3);
+    assert_close(near.impact.distance, 0.3, 1e-4);
+    e.tolerance = -1; /* left out, however near */
+    for (int k = 0; k < 4; ++k)
+        c.of[3].piece[0].centre[k] = mote_vec3_make(0.1, 0, 0);
+    assert_int_equal(ask_scene(&c, &q).impact.outcome, MOTE_IMPACT_NONE);
+    crowd_free(&c);
+}
+
+static void check_refused(crowd *c, const mote_impact_scene_question *q, const char *words)
+{
+    mote_impact_scene_found found;
+    assert_int_equal(mote_impact_scene_query(c->scene, q, &found), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), words))
+        fail_msg("%s", mote_error_text());
+}
+
+TEST(mote_impact_scene_refuses_with_reason)
+{
+    crowd c;
+    mote_impact_found found;
+    mote_impact_scene *none = NULL;
+    crowd_init(&c, 5, 2);
+    move_at_random(&c, 3, 1, 0.1, false);
+    const mote_impact_scene_question good = question_of(&c, 0.01);
+    mote_impact_scene_question q = good;
+    q.begin = 0.7, q.end = 0.2;
+    check_refused(&c, &q, "from 0.7 to 0.2");
+    q = good;
+    q.tolerance = NAN;
+    check_refused(&c, &q, "tolerance");
+    c.paths[4].count = 2;
+    check_refused(&c, &good, "body 4: its path has 2 pieces");
+    c.paths[4].count = 0;
+    check_refused(&c, &good, "body 4: its path has 0 pieces");
+    c.paths[4].count = 1;
+    c.of[2].piece[0].centre[1].y = NAN;
+    check_refused(&c, &good, "body 2");
+    c.of[2].piece[0].centre[1].y = 0;
+    assert_int_equal(
+        mote_impact_scene_pair(c.scene, c.paths, (const uint32_t[]){3, 3}, 0, 1, 0, &found),
+        MOTE_EINVAL);
+    assert_int_equal(mote_impact_scene_pair(c.scene, c.paths, (const uint32_t[]){3, BODIES}, 0,
+                                            1, 0, &found),
+                     MOTE_EINVAL);
+    const mote_body *const shapes[1] = {&c.of[0].body};
+    assert_int_equal(
+        mote_impact_scene_create(shapes, 1, (const uint32_t[]){0, 1}, 2, &c.options, &none),
+        MOTE_EINVAL);
+    assert_null(none);
+    assert_true(mote_impact_scene_bytes(c.scene) > 1000);
+    crowd_free(&c);
+}
+
+/* A scene of one body has a box and no impact. */
+TEST(mote_impact_scene_of_one_body)
+{
+    mote_random random = {1};
+    impact_body b;
+    mote_impact_scene *only;
+    impact_body_init(&b, impact_box(1, 1, 1), IMPACT_RIGID, &random);
+    const mote_body *const shapes[1] = {&b.body};
+    const mote_impact_options options = mote_default_impact_options(1);
+    need(mote_impact_scene_create(shapes, 1, (const uint32_t[]){0}, 1, &options, &only) ==
+         MOTE_OK);
+    const mote_impact_scene_question q = {.paths = &b.path, .end = 1, .tolerance = 1};
+    mote_impact_scene_found found;
+    assert_int_equal(mote_impact_scene_query(only, &q, &found), MOTE_OK);
+    assert_int_equal(found.impact.outcome, MOTE_IMPACT_NONE);
+    assert_int_equal(found.near_pairs, 0);
+    mote_impact_scene_destroy(only);
+    impact_body_free(&b);
+}
