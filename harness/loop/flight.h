@@ -7,7 +7,7 @@
 #define MOTE_HARNESS_FLIGHT_H
 
 #include "core/body/path.h"
-#include "harness/loop/simulator.h"
+#include "harness/loop/simulator_state.h"
 
 typedef struct mote_flight mote_flight;
 

@@ -5,7 +5,7 @@
 
 #include "harness/loop/contact_runs.h"
 #include "harness/loop/drift.h"
-#include "harness/loop/simulate.h"
+#include "harness/loop/simulator_state.h"
 
 /* The last witnesses of a near pair while it was apart. */
 typedef struct mote_simulation_gap {

@@ -229,7 +229,7 @@ TEST(row_without_approaches_has_no_share)
     json_decref(object);
     assert_int_equal(mote_dynamics_csv(&row, 1, OUT), MOTE_OK);
     char *text = file_text(OUT "/dynamics.csv");
-    assert_non_null(strstr(text, "\ntt,\"certified\",,,,,,0,0,"));
+    assert_non_null(strstr(text, "\ntt,\"certified\",0,,,,,,,0,0,"));
     free(text);
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
