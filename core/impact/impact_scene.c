@@ -159,12 +159,19 @@ static mote_status box_of(const mote_impact_scene *s, const mote_path *paths, ui
                          "to %u",
                          i, path->count, s->options.pieces);
     const uint32_t shape = s->shape_of[i];
+    const bool given = mote_body_is_given(&s->shapes[shape]);
+    if (given != (path->positions != NULL))
+        return mote_fail(MOTE_EINVAL, "body %u: its path is to be one of %s, as its shape says",
+                         i, given ? "positions" : "pieces");
     const uint32_t last = mote_path_place(path, end).piece;
     mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t k = mote_path_place(path, begin).piece; k <= last; ++k) {
         mote_scene_box part;
-        mote_impact_swept_box(s->groups[shape], &s->shapes[shape], path, k, &part);
+        if (given)
+            mote_impact_swept_lines(path, s->shapes[shape].mesh->vertex_count, k, &part);
+        else
+            mote_impact_swept_box(s->groups[shape], &s->shapes[shape], path, k, &part);
         const mote_vec3 size = mote_sub(part.high, part.low);
         if (!isfinite(size.x + size.y + size.z))
             return mote_fail(MOTE_EINVAL,

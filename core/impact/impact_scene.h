@@ -37,7 +37,8 @@ size_t mote_impact_scene_bytes(const mote_impact_scene *scene);
    all of its body at all of these times, as mote_path_state and mote_body_position give it.
    MOTE_EINVAL, naming the body: a path without pieces, with more than the options say or with
    another number than the others, a number in it that is not finite, times out of order. No
-   allocation. Cost O(J) a body, piece and group of vertices, of which there are at most 64. */
+   allocation. Cost O(J) a body, piece and group of vertices, of which there are at most 64; of
+   a path of positions O(vertices) a piece. */
 mote_status mote_impact_scene_boxes(const mote_impact_scene *scene, const mote_path *paths,
                                     double begin, double end, mote_scene_box *boxes);
 

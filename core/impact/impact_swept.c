@@ -59,6 +59,29 @@ static void add_range(double at, double reach, double far, const double centre[2
     widen(centre[0] + fmax(at - reach, -far), centre[1] + fmin(at + reach, far), low, high);
 }
 
+/* A vertex that goes straight is between its ends, but for the rounding of positions between.
+ */
+void mote_impact_swept_lines(const mote_path *path, uint32_t count, uint32_t k,
+                             mote_scene_box *box)
+{
+    mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double all = 0;
+    for (uint32_t end = k; end <= k + 1; ++end) {
+        for (uint32_t v = 0; v < count; ++v) {
+            const mote_vec3 p = mote_position_at(&path->positions[end], v);
+            widen(p.x, p.x, &low.x, &high.x);
+            widen(p.y, p.y, &low.y, &high.y);
+            widen(p.z, p.z, &low.z, &high.z);
+            all += p.x + p.y + p.z;
+        }
+    }
+    const double size = fmax(mote_length(low), mote_length(high));
+    const double margin = 0x1p-40 * size + 0 * all; /* NaN as above */
+    box->low = mote_vec3_make(low.x - margin, low.y - margin, low.z - margin);
+    box->high = mote_vec3_make(high.x + margin, high.y + margin, high.z + margin);
+}
+
 void mote_impact_swept_box(const mote_impact_groups *groups, const mote_body *body,
                            const mote_path *path, uint32_t k, mote_scene_box *box)
 {
