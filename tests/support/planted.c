@@ -190,18 +190,19 @@ PLANT(mote_parts_create, const mote_mesh *mesh, const mote_vec3 *positions, mote
     return MOTE_OK;
 }
 
-PLANT(mote_approaches_simulate, const mote_scenario *scenario, const char *method,
-      uint32_t wanted, mote_approaches *sum)
+PLANT(mote_approaches_simulate, const mote_scenario *scenario, const mote_approaches_plan *plan,
+      mote_approaches *sum)
 {
     (void)scenario;
     const mote_status status = due("mote_approaches_simulate");
     ++planted.simulated;
     if (status == MOTE_OK)
-        *sum = (mote_approaches){
-            .trials = wanted,
-            .approaches = wanted,
-            .passes_through = strstr(method, "paper") ? planted.passes : planted.others_pass,
-            .steps = 100 * wanted};
+        *sum = (mote_approaches){.trials = plan->wanted,
+                                 .approaches = plan->wanted,
+                                 .passes_through = strstr(plan->method, "paper")
+                                                       ? planted.passes
+                                                       : planted.others_pass,
+                                 .steps = 100 * plan->wanted};
     return status;
 }
 
