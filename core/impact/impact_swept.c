@@ -6,7 +6,10 @@
    the angle by which R has turned since the start of the piece, R (m - pivot) is within min(W,
    2) |m - pivot| of R_0 (m - pivot), since a chord is no longer than its arc, and within |m -
    pivot| of 0. Either box holds the group, so that their intersection does; a body that turns
-   far is held by the second, one that hardly turns by the first. */
+   far is held by the second, one that hardly turns by the first.
+
+   Of a skin, of which impact_bones.h bounds how far each group gets from the pivot, only the
+   second box is known, with that bound. */
 #include "core/impact/impact_swept.h"
 
 #include "core/body/path_place.h"
@@ -51,6 +54,51 @@ static void widen(double low, double high, double *box_low, double *box_high)
     *box_high = fmax(*box_high, high);
 }
 
+static bool has_numbers(const mote_path_piece *piece, size_t padded)
+{
+    double all = 0;
+    for (size_t j = 0; piece->weights && j < 12 * padded; ++j)
+        all += 0 * piece->weights[j];
+    return all >= 0;
+}
+
+/* Bounds of a group in a piece: within `reach` of `at` and within `far` of 0, as seen from the
+   pivot. */
+typedef struct ball {
+    mote_vec3 at;
+    double reach, far;
+} ball;
+
+/* Sets the balls of all groups; returns a bound of the sizes of what weights add, infinite
+   where a number is not finite. */
+static double find_balls(const mote_impact_groups *groups, const mote_body *body,
+                         const mote_path *path, const mote_path_piece *piece,
+                         ball balls[MOTE_IMPACT_GROUPS])
+{
+    const mote_impact_balls at_rest = {groups->count, groups->padded, groups->middle,
+                                       groups->radius};
+    const mote_mat3 start = mote_path_rotation(piece, 0);
+    const double angle = fmin(turned(piece), 2);
+    double sums[3 * MOTE_IMPACT_GROUPS], grown = 0;
+    if (groups->bones) {
+        grown = mote_impact_bones_bound(groups->bones, &at_rest, body->field, piece->weights,
+                                        path->pivot, mote_vec3_make(0, 0, 0), sums);
+        for (uint32_t g = 0; g < groups->count; ++g)
+            balls[g] = (ball){{0, 0, 0}, sums[g], sums[g]};
+        return has_numbers(piece, body->field->padded) ? grown : HUGE_VAL;
+    }
+    for (uint32_t g = 0; g < groups->count; ++g) {
+        const mote_vec3 arm = mote_sub(groups->middle[g], path->pivot);
+        const double moved = displaced(groups, body, piece, g), length = mote_length(arm);
+        const double radius = groups->radius[g] + moved;
+        if (!(moved < HUGE_VAL))
+            return HUGE_VAL;
+        balls[g] = (ball){mote_rotate(&start, arm), angle * length + radius, length + radius};
+        grown = fmax(grown, moved);
+    }
+    return grown;
+}
+
 /* Adds a ball's range along an axis: of middle `at`, within `reach` of it, and within `far` of
    0, around the control points' range. */
 static void add_range(double at, double reach, double far, const double centre[2], double *low,
@@ -86,8 +134,7 @@ void mote_impact_swept_box(const mote_impact_groups *groups, const mote_body *bo
                            const mote_path *path, uint32_t k, mote_scene_box *box)
 {
     const mote_path_piece *piece = &path->pieces[k];
-    const mote_mat3 start = mote_path_rotation(piece, 0);
-    const double angle = fmin(turned(piece), 2);
+    ball balls[MOTE_IMPACT_GROUPS] = {{.far = 0}};
     double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL},
            z[2] = {HUGE_VAL, -HUGE_VAL}, size = mote_length(path->pivot) + groups->size;
     for (int i = 0; i < 4; ++i) {
@@ -100,16 +147,12 @@ void mote_impact_swept_box(const mote_impact_groups *groups, const mote_body *bo
     }
     mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    double grown = 0;
+    const double grown = find_balls(groups, body, path, piece, balls);
     for (uint32_t g = 0; g < groups->count; ++g) {
-        const mote_vec3 arm = mote_sub(groups->middle[g], path->pivot);
-        const mote_vec3 at = mote_rotate(&start, arm);
-        const double moved = displaced(groups, body, piece, g);
-        const double ball = groups->radius[g] + moved, length = mote_length(arm);
-        add_range(at.x, angle * length + ball, length + ball, x, &low.x, &high.x);
-        add_range(at.y, angle * length + ball, length + ball, y, &low.y, &high.y);
-        add_range(at.z, angle * length + ball, length + ball, z, &low.z, &high.z);
-        grown = fmax(grown, moved);
+        const ball *b = &balls[g];
+        add_range(b->at.x, b->reach, b->far, x, &low.x, &high.x);
+        add_range(b->at.y, b->reach, b->far, y, &low.y, &high.y);
+        add_range(b->at.z, b->reach, b->far, z, &low.z, &high.z);
     }
     /* more than the rounding of positions (impact_rate.c) and of these sums */
     const double spin = piece->spins ? mote_length(piece->spin) : 0;
