@@ -8,8 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-/* What counts as a contact in truth is a little more than the tolerance, so that an impact,
-   where the proof of a distance above the tolerance ends, is one. */
+/* An impact, where the proof of a distance above the tolerance ends, counts as a contact in
+   truth if the distance is at most this many tolerances. */
 #define WIDER 1.01
 
 /* A distance of a pair above this part of the tolerance is more than what rounding leaves of
@@ -145,7 +145,7 @@ static void say(mote_between *b, mote_simulation *s, double now)
     s->said = (mote_stage_pairs){b->said, count};
 }
 
-/* Asks for the truth, with the wider tolerance, and compares. */
+/* Asks for the truth and compares. */
 static mote_status look(mote_between *b, mote_simulation *s, double part, double now, bool ask)
 {
     mote_stage *stage = b->simulator->stage;
@@ -161,7 +161,11 @@ static mote_status look(mote_between *b, mote_simulation *s, double part, double
     b->truth = mote_reserve(b->truth, s->truth.count, &b->truth_room, sizeof *b->truth);
     for (size_t k = 0; k < s->truth.count; ++k) {
         b->truth[k] = s->truth.pairs[k];
-        b->truth[k].answer.contact = b->truth[k].answer.distance <= WIDER * b->tolerance;
+        const uint32_t *body = b->truth[k].body;
+        const size_t t = place_of(b, body);
+        const bool impact = is_at(b, t, body) && !(now > b->touching[t].last);
+        b->truth[k].answer.contact =
+            b->truth[k].answer.distance <= (impact ? WIDER : 1) * b->tolerance;
     }
     s->truth.pairs = b->truth;
     if (b->impacts)
