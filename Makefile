@@ -12,6 +12,8 @@
 #   make engines [PROFILE=quick] [RECORD=1] [OUT=DIR]  other engines and ours, asked the same
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
+#   make auto [PROFILE=quick|full] [OUT=DIR]         auto beside certified and stream in every scenario
+#   make ratios [OUT=DIR] [AVX2=no]                  stream's time to the box tree's and FCL's
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make oracle METHOD=NAME [PLUGIN=FILE.so]          any method's answers on frames, against exact ones
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
@@ -146,6 +148,23 @@ fcl-flags: build deps-fcl
 .PHONY: verdicts
 verdicts: build
 	@harness/scripts/verdicts.sh $(MOTE) $(PROFILE) $(call out,verdicts)
+
+# Method auto beside the two that it chooses from, in every built-in scenario (docs/architecture.md).
+.PHONY: auto
+auto: build
+	@harness/scripts/auto.sh $(MOTE) $(PROFILE) $(call out,auto)
+
+# Method stream's time to that of the box tree and of FCL, told positions alone; also compiled for AVX2 only.
+AVX2 ?= yes
+.PHONY: ratios
+ratios: build $(if $(filter yes,$(AVX2)),build-avx2)
+	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios)
+
+.PHONY: build-avx2
+build-avx2: deps
+	@cmake -S . -B build-avx2 -DCMAKE_BUILD_TYPE=Release -DMOTE_FORCE_ISA=x86-64-v3 > build-avx2.log || \
+	    { cat build-avx2.log; exit 1; }
+	@$(call compile,build-avx2,mote)
 
 # With METHOD, only the frames, by these methods, also of the shared libraries in PLUGIN.
 PLUGIN ?=

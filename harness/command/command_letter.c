@@ -1,8 +1,11 @@
 /* mote letter W --triangles 11920 -o W.obj */
+#include "core/base/random.h"
+#include "core/stream/stream.h"
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
 #include "harness/command/command.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/base/options.h"
 
 #include <errno.h>
@@ -35,15 +38,85 @@ static mote_status write_mesh(const char *path, const mote_mesh *mesh)
     return status;
 }
 
+/* order[new] = old, in a random order that is always the same. */
+static void draw_order(uint32_t *order, uint32_t count)
+{
+    mote_random random = {1};
+    for (uint32_t v = 0; v < count; ++v)
+        order[v] = v;
+    for (uint32_t v = count; v > 1; --v) {
+        const uint32_t other = (uint32_t)mote_random_below(&random, v);
+        const uint32_t kept = order[v - 1];
+        order[v - 1] = order[other];
+        order[other] = kept;
+    }
+}
+
+/* Replaces *mesh with one whose vertices are in another order. */
+static mote_status reorder(const uint32_t *order, mote_mesh **mesh)
+{
+    const mote_mesh *old = *mesh;
+    mote_mesh *made = NULL;
+    const size_t corners = (size_t)3 * old->triangle_count;
+    mote_vec3 *positions = mote_allocate(old->vertex_count, sizeof *positions);
+    uint32_t *place = mote_allocate(old->vertex_count, sizeof *place);
+    uint32_t *triangles = mote_allocate(corners, sizeof *triangles);
+    for (uint32_t v = 0; v < old->vertex_count; ++v) {
+        positions[v] = old->positions[order[v]];
+        place[order[v]] = v;
+    }
+    for (size_t i = 0; i < corners; ++i)
+        triangles[i] = place[old->triangles[i / 3][i % 3]];
+    const mote_status status = mote_mesh_create(&positions[0].x, old->vertex_count, triangles,
+                                                old->triangle_count, &made);
+    free(positions);
+    free(place);
+    free(triangles);
+    if (status == MOTE_OK) {
+        mote_mesh_destroy(*mesh);
+        *mesh = made;
+    }
+    return status;
+}
+
+/* Makes a letter with its vertices in the order that --order names. */
+static mote_status make_letter(char letter, uint64_t triangles, const char *order,
+                               mote_mesh **mesh)
+{
+    mote_field *field = NULL;
+    mote_status status = mote_letter_create(letter, triangles, mesh);
+    if (status != MOTE_OK || strcmp(order, "letter") == 0)
+        return status;
+    uint32_t *numbers = mote_allocate((*mesh)->vertex_count, sizeof *numbers);
+    if (strcmp(order, "random") == 0) {
+        draw_order(numbers, (*mesh)->vertex_count);
+    } else {
+        status = mote_field_create_given(&field);
+        if (status == MOTE_OK)
+            status = mote_stream_order(&(mote_body){.mesh = *mesh, .field = field}, numbers);
+        mote_field_destroy(field);
+    }
+    if (status == MOTE_OK)
+        status = reorder(numbers, mesh);
+    free(numbers);
+    if (status != MOTE_OK)
+        mote_mesh_destroy(*mesh);
+    return status;
+}
+
 const mote_option mote_options_letter[] = {
     {"triangles", "COUNT", "about how many triangles the mesh has; no default"},
     {"-o", "FILE", "the OBJ file to write; no default"},
+    {"order", "letter|leaf|random",
+     "of the vertices: as a scenario's letter has them; as the method stream reads them; "
+     "random, "
+     "always the same (default: letter)"},
     {NULL, NULL, NULL}};
 
 int mote_command_letter(int argc, char **argv)
 {
     mote_option_reader reader = mote_option_begin(mote_options_letter, argc, argv);
-    const char *letter = NULL, *path = NULL, *value;
+    const char *letter = NULL, *path = NULL, *order = "letter", *value;
     uint64_t triangles = 0;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -54,18 +127,23 @@ int mote_command_letter(int argc, char **argv)
             letter = value;
         else if (option == 1)
             path = value;
+        else if (option == 2)
+            order = value;
         else if (!mote_read_unsigned(value, 0, SIZE_MAX, &triangles))
             return mote_command_usage("letter", "--triangles %s: give a whole number", value);
     }
     if (!letter || !path || triangles == 0)
         return mote_command_usage("letter", "something is missing; write `mote letter W "
                                             "--triangles 11920 -o W.obj`");
+    if (strcmp(order, "letter") != 0 && strcmp(order, "leaf") != 0 &&
+        strcmp(order, "random") != 0)
+        return mote_command_usage("letter", "--order %s: give letter, leaf or random", order);
     if (letter[0] == '\0' || letter[1] != '\0') {
         (void)mote_fail(MOTE_EINVAL, "letter %s: not one letter; give one capital", letter);
         return mote_command_fail();
     }
     mote_mesh *mesh;
-    if (mote_letter_create(letter[0], triangles, &mesh) != MOTE_OK)
+    if (make_letter(letter[0], triangles, order, &mesh) != MOTE_OK)
         return mote_command_fail();
     /* Facts printed about the mesh must not go into its file. */
     const bool is_stream = mote_path_is_stream(path);

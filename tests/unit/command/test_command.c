@@ -232,6 +232,68 @@ TEST(command_letter_writes_that_many_triangles)
     free(text);
 }
 
+/* A letter as a file has it: its vertices, and the signed volume under each face. */
+typedef struct letter_file {
+    double vertex[400][3], volume[600];
+    int vertices, faces;
+} letter_file;
+
+static letter_file read_letter(const char *path)
+{
+    letter_file letter = {.vertices = 0};
+    char *text = file_text(path);
+    for (const char *line = text; line && *line; line = strchr(line, '\n')) {
+        double *v = letter.vertex[letter.vertices];
+        int f[3];
+        line += *line == '\n';
+        if (sscanf(line, "v %lf %lf %lf", &v[0], &v[1], &v[2]) == 3)
+            ++letter.vertices;
+        if (sscanf(line, "f %d %d %d", &f[0], &f[1], &f[2]) != 3)
+            continue;
+        const double *a = letter.vertex[f[0] - 1], *b = letter.vertex[f[1] - 1];
+        const double *c = letter.vertex[f[2] - 1];
+        letter.volume[letter.faces++] = a[0] * (b[1] * c[2] - b[2] * c[1]) +
+                                        a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                                        a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    free(text);
+    return letter;
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    for (int c = 0; c < 3; ++c) {
+        if (x[c] < y[c] || x[c] > y[c])
+            return x[c] < y[c] ? -1 : 1;
+    }
+    return 0;
+}
+
+/* Other orders of the same vertices, and in each place the same face. */
+TEST(command_letter_writes_vertices_in_any_order)
+{
+    static const char *const lines[] = {"letter V --triangles 500 -o V.obj",
+                                        "letter V --triangles 500 --order leaf -o V.obj",
+                                        "letter V --triangles 500 --order random -o V.obj"};
+    static letter_file letter[3];
+    for (int k = 0; k < 3; ++k) {
+        assert_int_equal(mote("%s", lines[k]), 0);
+        letter[k] = read_letter("V.obj");
+        assert_int_equal(letter[k].faces, 500);
+        assert_memory_equal(letter[k].volume, letter[0].volume, sizeof letter[0].volume);
+        if (k > 0)
+            assert_memory_not_equal(letter[k].vertex, letter[0].vertex, 100 * sizeof(double));
+    }
+    for (int k = 0; k < 3; ++k) {
+        qsort(letter[k].vertex, (size_t)letter[k].vertices, sizeof letter[k].vertex[0],
+              compare_numbers);
+        assert_memory_equal(letter[k].vertex, letter[0].vertex, sizeof letter[0].vertex);
+    }
+    assert_int_equal(mote("letter V --triangles 500 --order down -o V.obj"), 2);
+    assert_non_null(strstr(said, "give letter, leaf or random"));
+}
+
 TEST(command_export_answers_match_between_exact_methods)
 {
     assert_int_equal(mote("export tt --frame 120 --out e --method brute-force "

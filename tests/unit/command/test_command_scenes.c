@@ -68,7 +68,9 @@ static const command_line bad_lines[] = {
     {"bodies here", 2, "here: mote bodies takes no argument; write `mote bodies --out DIR`"},
     {"bodies --quick --out /proc/x", 4, "/proc/x"},
     {"dynamics --every 3", 2, "unknown option --every; known are: --out DIR, --quick"},
-    {"letter --size 3", 2, "unknown option --size; known are: --triangles COUNT, -o FILE"},
+    {"letter --size 3", 2,
+     "unknown option --size; known are: --triangles COUNT, -o FILE, "
+     "--order letter|leaf|random"},
     {"letter W V", 2, "V: one letter at a time"},
     {"letter --triangles 400 -o W.obj", 2, "missing"},
     {"letter W --triangles 400", 2, "missing"},
