@@ -2,7 +2,8 @@
 # fcl_flags.sh BUILD OUT: races mote with Debian's FCL against mote with FCL compiled here by our flags, on the
 # same frames in turn. Its sources are those of FCL_DIR, else Debian's of the version installed, which
 # `apt-get source` fetches by the machine's own package sources, without root. FCL_FLAGS: more flags, such as
-# -march=native. BUDGET: seconds for the race (240). What is built is kept in build-fcl.
+# -march=native. FCL needs Eigen and libccd, which packages.txt has for Debian's FCL; dpkg-dev unpacks the
+# sources. BUDGET: seconds for the race (240). What is built is kept in build-fcl.
 set -eu
 mote=$1/mote
 out=$2
