@@ -21,6 +21,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make characters [MODELS=DIR]                     which animated files are read as characters
+#   make character-speed [PROFILE=quick|full] [OUT=]  characters: certified beside aabb-tree and FCL
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
@@ -80,7 +81,7 @@ SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTION
 .DEFAULT_GOAL := build
 .NOTPARALLEL: # JOBS is for what runs inside a target
 .PHONY: deps build build-tests bench test figures perf-check perf-accept test-perf test-kill \
-    test-statistics oracle tune ingredients ablation certify skins streamed impacts soak reliability extremes dynamics claims \
+    test-statistics oracle character-speed tune ingredients ablation certify skins streamed impacts soak reliability extremes dynamics claims \
     format lint clean
 
 # packages.txt lists what building and running mote needs, cmake/packages-NAME.txt what deps-NAME adds.
@@ -191,6 +192,9 @@ readers: program-readers deps-readers
 .PHONY: characters
 characters: program-characters deps-readers
 	@$(BUILD)/tests/characters $(call quoted,$(MODELS))
+
+character-speed: build
+	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed)
 
 tune: build
 	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)

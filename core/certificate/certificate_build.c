@@ -1,26 +1,21 @@
-/* Building the tree: balanced binary splits at the median along the main axis, collapsed from
+/* Building the tree: binary splits to leaves that are all as many levels down, collapsed from
    the leaves up to blocks of eight, so that only the root may have fewer children. */
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_fitted.h"
+#include "core/certificate/certificate_split.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct item {
-    float key;
-    uint32_t triangle;
-} item;
-
 typedef struct builder {
     mote_cert_tree *tree;
     mote_cert_tree_options options;
-    item *items;         /* [triangle_count], in the order of the tree */
-    float (*centres)[3]; /* [poses][triangle_count] */
-    uint32_t poses;      /* rest and the body's samples */
-    uint32_t *seen;      /* [vertex_count] stamp of the last list that a vertex was put in */
-    uint32_t *place;     /* [vertex_count] its index in that list */
-    uint32_t *list;      /* [vertex_count] the vertices of one range */
+    mote_cert_item *items; /* [triangle_count], in the order of the tree */
+    mote_cert_poses poses; /* at rest and the body's samples */
+    uint32_t *seen;        /* [vertex_count] stamp of the last list that a vertex was put in */
+    uint32_t *place;       /* [vertex_count] its index in that list */
+    uint32_t *list;        /* [vertex_count] the vertices of one range */
     uint32_t stamp;
     void *fitter; /* of the tree's bounds */
     size_t block_room, leaf_room, vertex_room, group_room;
@@ -33,114 +28,6 @@ typedef struct range {
     uint32_t begin, end;
     uint32_t levels; /* binary levels below it */
 } range;
-
-static void swap_items(item *a, item *b)
-{
-    const item c = *a;
-    *a = *b;
-    *b = c;
-}
-
-static float middle_key(const item *items, size_t low, size_t high)
-{
-    const float a = items[low].key;
-    const float b = items[low + (high - low) / 2].key;
-    const float c = items[high].key;
-    const float least = a < b ? a : b;
-    const float most = a < b ? b : a;
-    return c < least ? least : c > most ? most : c;
-}
-
-/* Moves the k least keys of items[0 .. count - 1] to the front (Hoare's selection). */
-static void select_least(item *items, size_t count, size_t k)
-{
-    size_t low = 0;
-    size_t high = count - 1;
-    while (low < high) {
-        const float pivot = middle_key(items, low, high);
-        size_t i = low;
-        size_t end = high + 1; /* one past the last that may be below the pivot */
-        while (i < end) {
-            while (items[i].key < pivot)
-                ++i;
-            while (pivot < items[end - 1].key)
-                --end;
-            if (i < end)
-                swap_items(&items[i++], &items[--end]);
-        }
-        if (k < end)
-            high = end - 1;
-        else if (k >= i)
-            low = i;
-        else
-            break;
-    }
-}
-
-/* The main axis of the centres of a range of triangles in one pose, and their variance along
-   it, times their number. */
-static mote_vec3 main_axis(const builder *b, range r, float (*centres)[3], double *variance)
-{
-    double mean[3] = {0};
-    double m[6] = {0};
-    const float *base = centres[b->items[r.begin].triangle];
-    for (uint32_t i = r.begin; i < r.end; ++i) {
-        const float *c = centres[b->items[i].triangle];
-        const double x = (double)(c[0] - base[0]);
-        const double y = (double)(c[1] - base[1]);
-        const double z = (double)(c[2] - base[2]);
-        mean[0] += x;
-        mean[1] += y;
-        mean[2] += z;
-        m[0] += x * x;
-        m[1] += x * y;
-        m[2] += x * z;
-        m[3] += y * y;
-        m[4] += y * z;
-        m[5] += z * z;
-    }
-    const double n = 1 / (double)(r.end - r.begin);
-    double a[3][3];
-    a[0][0] = m[0] - mean[0] * mean[0] * n;
-    a[0][1] = a[1][0] = m[1] - mean[0] * mean[1] * n;
-    a[0][2] = a[2][0] = m[2] - mean[0] * mean[2] * n;
-    a[1][1] = m[3] - mean[1] * mean[1] * n;
-    a[1][2] = a[2][1] = m[4] - mean[1] * mean[2] * n;
-    a[2][2] = m[5] - mean[2] * mean[2] * n;
-    mote_vec3 axes[3];
-    mote_cert_principal_axes(a, axes);
-    *variance = fmax(a[0][0], fmax(a[1][1], a[2][2])); /* diagonal by now */
-    return axes[0];
-}
-
-/* Splits a range at the median along its main axis in the pose in which it is spread most;
-   returns where the second half begins. */
-static uint32_t split(builder *b, range r)
-{
-    const size_t triangles = b->tree->body->mesh->triangle_count;
-    float(*centres)[3] = b->centres;
-    double most;
-    mote_vec3 axis = main_axis(b, r, centres, &most);
-    for (uint32_t pose = 1; pose < b->poses; ++pose) {
-        double variance;
-        const mote_vec3 other = main_axis(b, r, b->centres + pose * triangles, &variance);
-        if (variance > most) {
-            most = variance;
-            axis = other;
-            centres = b->centres + pose * triangles;
-        }
-    }
-    const float x = (float)axis.x;
-    const float y = (float)axis.y;
-    const float z = (float)axis.z;
-    for (uint32_t i = r.begin; i < r.end; ++i) {
-        const float *c = centres[b->items[i].triangle];
-        b->items[i].key = c[0] * x + c[1] * y + c[2] * z;
-    }
-    const uint32_t half = (r.end - r.begin) / 2;
-    select_least(b->items + r.begin, r.end - r.begin, half);
-    return r.begin + half;
-}
 
 /* Lists the vertices of a range once each in b->list. */
 static uint32_t list_vertices(builder *b, range r)
@@ -246,7 +133,9 @@ static uint32_t split_levels(builder *b, range whole, uint32_t levels,
         for (uint32_t i = 0; i < count; ++i) {
             const range r = parts[i];
             const uint32_t below = r.levels > 0 ? r.levels - 1 : 0;
-            const uint32_t middle = split(b, r);
+            const uint32_t most = (uint32_t)MOTE_CERT_LEAF_TRIANGLES << below;
+            const uint32_t middle =
+                r.begin + mote_cert_split(&b->poses, b->items + r.begin, r.end - r.begin, most);
             next[made++] = (range){r.begin, middle, below};
             next[made++] = (range){middle, r.end, below};
         }
@@ -383,13 +272,17 @@ static mote_status allocate(builder *b)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
     b->items = malloc(mesh->triangle_count * sizeof *b->items);
-    b->poses = 1 + b->tree->body->sample_count;
-    b->centres = malloc((size_t)b->poses * mesh->triangle_count * sizeof *b->centres);
+    b->poses =
+        (mote_cert_poses){.count = 1 + b->tree->body->sample_count,
+                          .triangles = mesh->triangle_count,
+                          .centres = malloc((1 + (size_t)b->tree->body->sample_count) *
+                                            mesh->triangle_count * sizeof *b->poses.centres)};
     b->seen = calloc(mesh->vertex_count, sizeof *b->seen);
     b->place = malloc(mesh->vertex_count * sizeof *b->place);
     b->list = malloc(mesh->vertex_count * sizeof *b->list);
     b->tree->corners = malloc(mesh->triangle_count * sizeof *b->tree->corners);
-    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->tree->corners)
+    if (!b->items || !b->poses.centres || !b->seen || !b->place || !b->list ||
+        !b->tree->corners)
         return mote_fail(MOTE_ENOMEM, "no memory to build a tree of %u triangles",
                          mesh->triangle_count);
     return MOTE_OK;
@@ -405,7 +298,7 @@ static mote_vec3 posed(const mote_cert_tree *tree, uint32_t pose, uint32_t verte
 static void place_triangles(builder *b, uint32_t pose)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
-    float(*centres)[3] = b->centres + (size_t)pose * mesh->triangle_count;
+    float(*centres)[3] = b->poses.centres + (size_t)pose * mesh->triangle_count;
     for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
         const uint32_t *v = mesh->triangles[t];
         const mote_vec3 sum =
@@ -453,7 +346,7 @@ static mote_status build(builder *b)
     b->status = b->tree->bounds->start(b->tree, b->options.linear_fits, &b->fitter);
     if (b->status != MOTE_OK)
         return b->status;
-    for (uint32_t pose = 0; pose < b->poses; ++pose)
+    for (uint32_t pose = 0; pose < b->poses.count; ++pose)
         place_triangles(b, pose);
     build_block(b, (range){0, mesh->triangle_count, levels_of(mesh->triangle_count)}, 1);
     b->tree->bounds->stop(b->fitter);
@@ -487,7 +380,7 @@ mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_op
         b->bits = options->width == 8 ? 3 : options->width == 4 ? 2 : 1;
         status = build(b);
         free(b->items);
-        free(b->centres);
+        free(b->poses.centres);
         free(b->seen);
         free(b->place);
         free(b->list);

@@ -1,0 +1,123 @@
+/* Splitting triangles for the certificate's tree. Two clusters are known, and the parts are
+   held against them. */
+#include "core/certificate/certificate_split.h"
+
+#include "tests/support/solids.h"
+#include "tests/support/test.h"
+
+enum { TRIANGLES = 1500, POSES = 3 };
+
+static float centres[POSES * TRIANGLES][3];
+
+/* Triangles below `first` are one cluster, the others another. Both are a unit cube; in pose
+   `apart` the second one is moved by 5 along y. */
+static void place(uint32_t count, uint32_t first, uint32_t apart, mote_cert_item *items)
+{
+    uint64_t seed = 17 + count + first;
+    for (uint32_t pose = 0; pose < POSES; ++pose) {
+        for (uint32_t t = 0; t < count; ++t) {
+            for (int k = 0; k < 3; ++k)
+                centres[(size_t)pose * count + t][k] = (float)random_between(&seed, 0, 1);
+            if (pose == apart && t >= first)
+                centres[(size_t)pose * count + t][1] += 5;
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t place = (uint32_t)random_between(&seed, 0, i + 0.999);
+        items[i].triangle = items[place].triangle;
+        items[place].triangle = i;
+    }
+}
+
+static mote_cert_poses poses_of(uint32_t count, uint32_t poses)
+{
+    return (mote_cert_poses){.centres = centres, .count = poses, .triangles = count};
+}
+
+static void check_all_there(const mote_cert_item *items, uint32_t count)
+{
+    static bool seen[TRIANGLES];
+    memset(seen, 0, sizeof seen);
+    for (uint32_t i = 0; i < count; ++i) {
+        assert_true(items[i].triangle < count && !seen[items[i].triangle]);
+        seen[items[i].triangle] = true;
+    }
+}
+
+/* Whether the first part is one of the clusters. */
+static bool parts_clusters(const mote_cert_item *items, uint32_t count, uint32_t half,
+                           uint32_t first)
+{
+    const bool low = items[0].triangle < first;
+    for (uint32_t i = 0; i < count; ++i) {
+        if ((items[i].triangle < first) != (i < half ? low : !low))
+            return false;
+    }
+    return true;
+}
+
+TEST(at_rest_alone_triangles_are_halved_across_the_longest_side)
+{
+    static mote_cert_item items[TRIANGLES];
+    for (uint32_t count = 2; count <= 1001; count += 111) {
+        place(count, count, POSES, items);
+        for (uint32_t t = 0; t < count; ++t)
+            centres[t][2] *= 50;
+        const mote_cert_poses poses = poses_of(count, 1);
+        assert_true(mote_cert_split(&poses, items, count, count) == count / 2);
+        check_all_there(items, count);
+        float most = -1, least = 100;
+        for (uint32_t i = 0; i < count; ++i) {
+            const float z = centres[items[i].triangle][2];
+            most = i < count / 2 && z > most ? z : most;
+            least = i >= count / 2 && z < least ? z : least;
+        }
+        /* the axis is that of the spread: of a few triangles, some degrees off the long side */
+        assert_true(most - least < (count < 200 ? 10 : 2));
+    }
+}
+
+TEST(clusters_that_part_in_one_pose_are_split)
+{
+    static mote_cert_item items[TRIANGLES];
+    for (uint32_t apart = 0; apart < POSES; ++apart) {
+        for (uint32_t count = 60; count <= TRIANGLES; count *= 5) {
+            place(count, count / 2, apart, items);
+            const mote_cert_poses poses = poses_of(count, POSES);
+            const uint32_t half = mote_cert_split(&poses, items, count, count / 2);
+            check_all_there(items, count);
+            assert_true(half == count / 2);
+            assert_true(parts_clusters(items, count, half, count / 2));
+        }
+    }
+}
+
+/* 20 of 64 apart from 44: found where a part of 44 has room, not where it has not. */
+TEST(parts_are_as_uneven_as_there_is_room_for)
+{
+    static mote_cert_item items[TRIANGLES];
+    for (uint32_t first = 20; first <= 44; first += 24) {
+        const mote_cert_poses poses = poses_of(64, POSES);
+        place(64, first, 1, items);
+        const uint32_t half = mote_cert_split(&poses, items, 64, 44);
+        check_all_there(items, 64);
+        assert_true(parts_clusters(items, 64, half, first));
+        place(64, first, 1, items);
+        const uint32_t less = mote_cert_split(&poses, items, 64, 40);
+        check_all_there(items, 64);
+        assert_true(less >= 24 && less <= 40);
+    }
+}
+
+TEST(few_and_equal_triangles_are_halved)
+{
+    static mote_cert_item items[TRIANGLES];
+    for (uint32_t count = 2; count < 70; ++count) {
+        place(count, count, POSES, items);
+        memset(centres, 0, sizeof centres);
+        const mote_cert_poses poses = poses_of(count, POSES);
+        /* neither half holds `most`: halves, then */
+        assert_true(mote_cert_split(&poses, items, count, 0) == count / 2);
+        check_all_there(items, count);
+    }
+}
