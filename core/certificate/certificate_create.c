@@ -27,8 +27,18 @@ static void *allocate_aligned(size_t count, size_t size)
 typedef struct capacity {
     const mote_body *largest; /* the body with the most vertices */
     uint32_t blocks, depth;   /* the most blocks, and the greatest depth, of any tree */
+    uint32_t positions;       /* the most that are likely to be looked at in a query */
     size_t frame;             /* the most bytes that bounds keep of a frame */
 } capacity;
+
+/* How many exact positions a query is likely to look at. With sparse fields, of which leaves
+   are placed in single precision, it is 20 to 50 of both bodies in the mean, 87 at most with
+   the characters of 15,000 triangles and 280 with those of 330,000. */
+static uint32_t positions_for(const mote_body *body)
+{
+    const uint32_t one_in = body->field->kind->sparse ? 64 : 8;
+    return at_most(128 + body->mesh->vertex_count / one_in, 2048);
+}
 
 static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
 {
@@ -39,6 +49,7 @@ static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
             most.largest = body;
         most.blocks = larger(most.blocks, trees[i]->block_count);
         most.depth = larger(most.depth, trees[i]->depth);
+        most.positions = larger(most.positions, positions_for(body));
         const size_t frame = trees[i]->bounds->frame_bytes(trees[i]);
         most.frame = frame > most.frame ? frame : most.frame;
     }
@@ -50,8 +61,7 @@ static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
 static mote_status side_create(mote_cert_side *side, const capacity *most)
 {
     const uint32_t vertices = most->largest->mesh->vertex_count;
-    const uint32_t expected = at_most(128 + vertices / 8, 2048);
-    mote_status status = mote_lazy_init(&side->lazy, most->largest, expected);
+    mote_status status = mote_lazy_init(&side->lazy, most->largest, most->positions);
     if (status != MOTE_OK)
         return status;
     side->lazy.fixed = true;
