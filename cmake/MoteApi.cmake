@@ -8,7 +8,7 @@ set(MOTE_SOVERSION 0)
 # Headers of the installed library; everything else in core/ is not for users.
 set(public_headers status vec3 clones mesh field field_maker body positions triangle parameter plugin
     method certificate scene stream stream_scene mass skin skin_data quaternion rigid_motion response
-    lazy certificate_tree certificate_box certificate_side certificate_bounds certificate_project path impact
+    lazy certificate_tree certificate_box certificate_side certificate_bounds certificate_project path impact impact_method
     impact_scene
     version controls batch_run batch stream_batch crowd)
 if(NOT MOTE_CORE_ONLY)

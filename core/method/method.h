@@ -19,7 +19,9 @@ extern "C" {
 
 typedef enum mote_ask {
     MOTE_ASK_DISTANCE, /* the distance of the surfaces, and the contact that follows from it */
-    MOTE_ASK_CONTACT   /* only whether distance <= tolerance: a method may stop when it knows */
+    MOTE_ASK_CONTACT,  /* only whether distance <= tolerance: a method may stop when it knows */
+    MOTE_ASK_IMPACT    /* when distance <= tolerance first holds between two moments: asked of
+                          methods that have a mote_impact_method, and only through it */
 } mote_ask;
 
 /* What a method is built for. Everything is borrowed until destroy. */

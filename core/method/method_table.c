@@ -1,4 +1,4 @@
-#include "core/method/method.h"
+#include "core/method/impact_method.h"
 
 #include <string.h>
 
@@ -34,4 +34,13 @@ mote_status mote_method_add(const mote_method *method)
                          ADDED_MAX);
     added[added_count++] = method;
     return MOTE_OK;
+}
+
+const mote_impact_method *mote_impact_method_find(const char *name)
+{
+    for (size_t i = 0; mote_impact_methods[i]; ++i) {
+        if (strcmp(mote_impact_methods[i]->method, name) == 0)
+            return mote_impact_methods[i];
+    }
+    return NULL;
 }

@@ -30,7 +30,7 @@ static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
                               const mote_method_choice *choice, uint32_t last,
                               mote_answer *answer)
 {
-    mote_subject_frame frame = mote_subject_frame_create(subject);
+    mote_subject_frame frame = mote_subject_frame_create(subject, 0);
     mote_status status = MOTE_OK;
     const uint32_t first =
         mote_method_traits(choice->method, choice->values).keeps_state ? 1 : last;
@@ -144,7 +144,7 @@ static mote_status write_mesh(const mote_body *body, const mote_body_state *stat
 static mote_status write_meshes(const mote_subject *subject, const request *wish)
 {
     const mote_engine_setup setup = mote_subject_engine(subject);
-    mote_subject_frame frame = mote_subject_frame_create(subject);
+    mote_subject_frame frame = mote_subject_frame_create(subject, 0);
     mote_status status = mote_subject_frame_set(subject, (uint32_t)wish->frame, 0, &frame);
     for (uint32_t i = 0; i < setup.count && status == MOTE_OK; ++i) {
         char *path = mesh_path(wish->directory, setup.count, i);

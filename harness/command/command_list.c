@@ -1,6 +1,6 @@
 /* mote list methods|scenarios|fields [--json] */
 #include "core/body/field_maker.h"
-#include "core/method/method.h"
+#include "core/method/impact_method.h"
 #include "harness/scene/catalog.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
@@ -67,11 +67,16 @@ static int list_methods(bool json)
     const mote_method *method;
     for (size_t i = 0; (method = mote_method_at(i)); ++i) {
         show(list, method->name, method->summary, method->parameters, method->parameter_count);
-        if (json)
-            (void)json_object_set_new(json_array_get(list, json_array_size(list) - 1),
-                                      "needs_field", json_boolean(needs_field(method)));
-        else if (needs_field(method))
+        const bool impacts = mote_impact_method_find(method->name) != NULL;
+        if (json) {
+            json_t *row = json_array_get(list, json_array_size(list) - 1);
+            (void)json_object_set_new(row, "needs_field", json_boolean(needs_field(method)));
+            (void)json_object_set_new(row, "answers_impacts", json_boolean(impacts));
+        } else if (needs_field(method)) {
             (void)printf("    needs a field: no bodies of which only positions are given\n");
+        }
+        if (!json && impacts)
+            (void)printf("    answers impacts\n");
     }
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }

@@ -34,6 +34,8 @@ const mote_option mote_options_run[] = {
     {"stride", "auto|K",
      "measure every K-th frame; auto: every 16th for slow methods without state (default: "
      "auto)"},
+    {"step", "1,3,10,30,100",
+     "ask for impacts, K frames at a time, once with each K (default: what the scenario asks)"},
     {"dry-run", NULL, "print the plan and measure nothing"},
     {"force", NULL, "measure finished cells again"},
     {"fixed-seed", NULL, "the same seed for every replicate (default: each has its own)"},
@@ -66,6 +68,7 @@ enum {
     OPTION_TIMEOUT,
     OPTION_CACHE,
     OPTION_STRIDE,
+    OPTION_STEP,
     OPTION_DRY_RUN,
     OPTION_FORCE,
     OPTION_FIXED_SEED,
@@ -120,6 +123,27 @@ static bool read_stride(const char *text, uint32_t *stride)
     return strcmp(text, "auto") == 0 || read_count(text, UINT32_MAX, stride);
 }
 
+/* "1,3,10", ascending */
+static bool read_steps(const char *text, mote_plan_options *plan)
+{
+    plan->step_count = 0;
+    for (;; ++text) {
+        const size_t length = strcspn(text, ",");
+        char *one = mote_format("%.*s", (int)length, text);
+        uint32_t step = 0;
+        const bool good = plan->step_count < MOTE_STEPS_MAX &&
+                          read_count(one, UINT32_MAX, &step) &&
+                          (plan->step_count == 0 || step > plan->steps[plan->step_count - 1]);
+        free(one);
+        if (!good)
+            return false;
+        plan->steps[plan->step_count++] = step;
+        text += length;
+        if (*text == '\0')
+            return true;
+    }
+}
+
 static bool read_direction(const char *text, const char **direction)
 {
     double xyz[3];
@@ -162,6 +186,9 @@ static bool set_option(request *q, int option, const char *value, const char **e
         return read_cache(value, &plan->cache);
     case OPTION_STRIDE:
         return read_stride(value, &plan->stride);
+    case OPTION_STEP:
+        *expected = "ascending whole numbers of at least 1, 32 at most: 1,3,10,30,100";
+        return read_steps(value, plan);
     case OPTION_FIXED_SEED:
         plan->fixed_seed = true;
         return true;

@@ -5,7 +5,7 @@
 #ifndef MOTE_HARNESS_ENGINE_H
 #define MOTE_HARNESS_ENGINE_H
 
-#include "core/method/method.h"
+#include "core/method/impact_method.h"
 #include "harness/base/method_choice.h"
 
 /* The largest number of shapes. */
@@ -19,6 +19,7 @@ typedef struct mote_engine_setup {
     uint32_t count;           /* of bodies, >= 2 */
     double length;            /* L */
     mote_ask ask;
+    uint32_t step;    /* of MOTE_ASK_IMPACT: pieces of the paths; else 0 */
     double tolerance; /* absolute */
     double near;   /* absolute; pairs whose bounds are at most this far apart are near. Infinite
                       for two bodies, which are always near, so any method can answer */
@@ -74,6 +75,12 @@ int64_t mote_engine_deform_bytes(const mote_engine *engine);
    if they have fields. For a method that is given positions without being charged, deforms two
    bodies. */
 void mote_engine_show(mote_engine *engine, const mote_body_state *states);
+
+/* The same of MOTE_ASK_IMPACT: the paths of the two bodies, borrowed until the next call. */
+void mote_engine_show_paths(mote_engine *engine, const mote_path *const paths[2]);
+
+/* The last answer about an impact. */
+const mote_impact_answer *mote_engine_impact(const mote_engine *engine);
 
 /* Answers for the near pairs of the current frame. For two bodies, only the method
    allocates. */

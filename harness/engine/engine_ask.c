@@ -21,6 +21,11 @@ static const mote_engine_kind *kind_of_many(const mote_method_choice *choice)
     return &mote_engine_of_pairs;
 }
 
+static const mote_engine_kind *kind_of_two(mote_ask ask)
+{
+    return ask == MOTE_ASK_IMPACT ? &mote_engine_of_impact : &mote_engine_of_two;
+}
+
 mote_status mote_engine_create(const mote_engine_setup *setup, const mote_method_choice *choice,
                                mote_engine **engine)
 {
@@ -34,7 +39,7 @@ mote_status mote_engine_create(const mote_engine_setup *setup, const mote_method
     made->traits = mote_method_traits(choice->method, choice->values);
     made->threads = (uint32_t)choice->scene[MOTE_SCENE_THREADS];
     made->refits_every = (int)choice->scene[MOTE_SCENE_REFIT] == MOTE_REFIT_EVERY;
-    made->kind = two ? &mote_engine_of_two : kind_of_many(choice);
+    made->kind = two ? kind_of_two(setup->ask) : kind_of_many(choice);
     if (made->kind->create)
         status = made->kind->create(made);
     if (status == MOTE_OK)
@@ -81,6 +86,17 @@ void mote_engine_show(mote_engine *engine, const mote_body_state *states)
         engine->kind->show(engine);
 }
 
+void mote_engine_show_paths(mote_engine *engine, const mote_path *const paths[2])
+{
+    engine->paths[0] = paths[0];
+    engine->paths[1] = paths[1];
+}
+
+const mote_impact_answer *mote_engine_impact(const mote_engine *engine)
+{
+    return &engine->found;
+}
+
 /* A separate function, so that callgrind can count within it alone
    (harness/run/instructions.c). */
 __attribute__((noinline)) static mote_status timed_step(mote_engine *e, mote_engine_cost *cost)
@@ -122,7 +138,8 @@ static void sum_up(mote_engine *e, mote_engine_cost *cost)
 mote_status mote_engine_ask(mote_engine *engine, mote_engine_cost *cost)
 {
     mote_engine_cost made = {0};
-    const bool two = engine->kind == &mote_engine_of_two;
+    const bool two =
+        engine->kind == &mote_engine_of_two || engine->kind == &mote_engine_of_impact;
     const mote_status status = two ? engine->kind->ask(engine, &made) : ask_many(engine, &made);
     if (status != MOTE_OK)
         return status;

@@ -51,6 +51,7 @@ typedef struct mote_engine_kind {
 } mote_engine_kind;
 
 extern const mote_engine_kind mote_engine_of_two;       /* any contract method */
+extern const mote_engine_kind mote_engine_of_impact;    /* the same, between two moments */
 extern const mote_engine_kind mote_engine_of_pairs;     /* a contract method, for each near
                                                            pair */
 extern const mote_engine_kind mote_engine_of_trees;     /* FCL's and our box trees */
@@ -70,6 +71,9 @@ struct mote_engine {
     mote_frame frame; /* as the method sees it; must outlive the call */
     mote_vec3 *world[2];
     void *state;
+    const mote_impact_method *impact; /* NULL: impacts are not asked for */
+    const mote_path *paths[2];
+    mote_impact_answer found;
 
     /* More than two bodies: */
     uint32_t threads;
@@ -89,6 +93,13 @@ struct mote_engine {
     mote_pool *pool;
     mote_thread_failure *failures; /* [threads] */
 };
+
+/* For kinds of two bodies (engine_two.c): */
+
+/* MOTE_EINVAL: keys of scenes have no effect on two bodies, so a result must not list them. */
+mote_status mote_engine_refuse_scene_keys(void);
+/* What the method is built for. */
+mote_setup mote_engine_setup_of_method(const mote_engine *e);
 
 /* For kinds of more than two bodies (engine_near.c): */
 

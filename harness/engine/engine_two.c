@@ -26,27 +26,36 @@ static mote_status make_vertices(mote_engine *e)
     return MOTE_OK;
 }
 
-/* Keys of scenes have no effect on two bodies, so a result must not list them. */
+mote_status mote_engine_refuse_scene_keys(void)
+{
+    return mote_fail(
+        MOTE_EINVAL,
+        "refit, threads and ahead are keys for more than two bodies; leave them out");
+}
+
 static mote_status two_create(mote_engine *e)
 {
     if (mote_method_choice_is_of_scenes(&e->choice))
-        return mote_fail(
-            MOTE_EINVAL,
-            "refit, threads and ahead are keys for more than two bodies; leave them out");
+        return mote_engine_refuse_scene_keys();
     e->now.count = 1;
     mote_engine_pair_list_make_room(&e->now, 1);
     e->now.pairs[0] = (mote_near_pair){.body = {0, 1}};
     return e->traits.given_vertices ? make_vertices(e) : MOTE_OK;
 }
 
+mote_setup mote_engine_setup_of_method(const mote_engine *e)
+{
+    return (mote_setup){.body = {e->setup.shapes[0], e->setup.shapes[1]},
+                        .length = e->setup.length,
+                        .ask = e->setup.ask,
+                        .tolerance = e->setup.tolerance,
+                        .seed = e->setup.seed,
+                        .values = e->choice.values};
+}
+
 static mote_status two_build(mote_engine *e)
 {
-    const mote_setup setup = {.body = {e->setup.shapes[0], e->setup.shapes[1]},
-                              .length = e->setup.length,
-                              .ask = e->setup.ask,
-                              .tolerance = e->setup.tolerance,
-                              .seed = e->setup.seed,
-                              .values = e->choice.values};
+    const mote_setup setup = mote_engine_setup_of_method(e);
     mote_status status = MOTE_OK;
     if (e->traits.needs_vertices && !e->traits.given_vertices)
         status = make_vertices(e);

@@ -87,13 +87,25 @@ static json_t *row_data(const mote_summary_row *row)
     return data;
 }
 
+/* Whether any scene is asked for impacts: else their columns would be empty. */
+static bool asks_impacts(const mote_summary *summary)
+{
+    bool asks = false;
+    for (size_t i = 0; i < summary->count; ++i)
+        asks = asks || summary->rows[i].step > 0;
+    return asks;
+}
+
 void mote_report_rows_data(const mote_report *report, json_t *data)
 {
     json_t *columns = json_array(), *blocks = json_array(), *rows = json_array();
     const mote_column *shown[MOTE_VIEW_MAX];
     const size_t count = mote_column_view(MOTE_VIEW_REPORT, shown);
-    for (size_t k = 0; k < count; ++k)
-        append(columns, column_data(shown[k]));
+    const bool impacts = asks_impacts(&report->summary);
+    for (size_t k = 0; k < count; ++k) {
+        if (impacts || !shown[k]->object || strcmp(shown[k]->object, "impact") != 0)
+            append(columns, column_data(shown[k]));
+    }
     for (size_t first = 0; first < report->summary.count;) {
         const size_t end = mote_report_block_end(report, first);
         const mote_report_glance glance = mote_report_block_glance(report, first, end);

@@ -16,7 +16,15 @@ const char *const mote_cell_status_names[] = {"ok", "crashed", "timeout", "unsup
 #define NAME_TEXT(name) #name,
 const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT] = {
     MOTE_SCENE_COLUMNS(NAME_TEXT)};
+const char *const mote_impact_column_names[MOTE_IMPACT_COLUMN_COUNT] = {
+    MOTE_IMPACT_COLUMNS(NAME_TEXT)};
 #undef NAME_TEXT
+
+uint32_t mote_cell_rows(const mote_cell *cell)
+{
+    const uint32_t frames = cell->last - cell->first;
+    return frames >= cell->step ? (frames - cell->step) / cell->stride + 1 : 0;
+}
 
 /* A name made fit for a file name. */
 static void plain(const char *name, char *out, size_t size)
@@ -51,6 +59,8 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
                   cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
                   program);
+    if (cell->step > 0)
+        mote_text_add(&text, " step %u", cell->step);
     if (cell->jobs > 1)
         mote_text_add(&text, " jobs");
     if (cell->fixed_seed)
@@ -144,15 +154,16 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         (int)cell->stride, "seed", (json_int_t)cell->seed, "cache",
         mote_cache_names[cell->cache], "triangles", (int)facts.triangles[0],
         (int)facts.triangles[1], "vertices", (int)facts.vertices[0], (int)facts.vertices[1],
-        "length", facts.length, "tolerance", facts.tolerance, "ask",
-        facts.ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
-        (int)facts.frames, "active", active_json(cell, &facts), "program", hash, "machine",
-        machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
+        "length", facts.length, "tolerance", facts.tolerance, "ask", mote_ask_names[facts.ask],
+        "scenario_frames", (int)facts.frames, "active", active_json(cell, &facts), "program",
+        hash, "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
         cell->fixed_seed);
     if (object)
         (void)json_object_set_new(
             object, "told",
             json_string(mote_cell_told_positions(cell) ? "positions" : "field"));
+    if (object && cell->step > 0)
+        (void)json_object_set_new(object, "step", json_integer(cell->step));
     if (object && of_scene) {
         (void)json_object_set_new(object, "bodies", json_integer(facts.bodies));
         (void)json_object_set_new(object, "shapes",
@@ -173,11 +184,41 @@ static void add_real(mote_text *text, bool present, double value)
         mote_text_add(text, ",");
 }
 
+/* Whether there is an impact in a row's question: 1, 0, or -1 without a truth; and when. */
+static int true_impact(const mote_cell *cell, const mote_cell_row *row, double *to)
+{
+    const mote_impact_truth *truth = cell->subject->impacts;
+    return truth ? mote_impact_truth_between(truth, row->frame, cell->step, to) : -1;
+}
+
+/* 1, 0, or -1 without a truth. */
+static int true_contact(const mote_cell *cell, const mote_cell_row *row)
+{
+    const mote_truth *truth = cell->subject->truth;
+    double to;
+    if (cell->step > 0)
+        return true_impact(cell, row, &to);
+    return truth ? truth->contact[row->frame - 1] : -1;
+}
+
+static void add_impact(mote_text *text, const mote_cell *cell, const mote_cell_row *row)
+{
+    const mote_impact_answer *answer = &row->impact;
+    const bool impact = answer->answered && answer->impact;
+    double to = 0;
+    const bool has_truth = true_impact(cell, row, &to) == 1;
+    add_real(text, impact, answer->from);
+    add_real(text, impact, answer->to);
+    add_real(text, has_truth, to);
+    mote_text_add(text, ",%u", answer->iterations);
+}
+
 static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row *row)
 {
     const mote_answer *answer = &row->answer;
-    const mote_truth *truth = cell->subject->truth; /* NULL: more than two bodies */
+    const mote_truth *truth = cell->subject->truth; /* NULL: more than two bodies, or impacts */
     const double exact = truth ? truth->distance[row->frame - 1] : 0;
+    const int contact = true_contact(cell, row);
     mote_text_add(text, "%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64, row->frame, row->deform_ns,
                   row->update_ns, row->query_ns);
     add_real(text, answer->has_distance, answer->distance);
@@ -189,8 +230,8 @@ static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row 
         mote_text_add(text, ",%d", answer->contact ? 1 : 0);
     else
         mote_text_add(text, ",");
-    if (truth)
-        mote_text_add(text, ",%d", truth->contact[row->frame - 1] ? 1 : 0);
+    if (contact >= 0)
+        mote_text_add(text, ",%d", contact);
     else
         mote_text_add(text, ",");
     for (int side = 0; side < 2; ++side) {
@@ -208,6 +249,8 @@ static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row 
         MOTE_SCENE_COLUMNS(ADD_COLUMN)
     }
 #undef ADD_COLUMN
+    if (cell->step > 0)
+        add_impact(text, cell, row);
     mote_text_add(text, "\n");
 }
 
@@ -223,6 +266,9 @@ static mote_status record_rows(const mote_cell *cell, const mote_cell_result *re
     MOTE_COUNTERS_MORE(ADD_NAME)
     if (cell->subject->bodies) {
         MOTE_SCENE_COLUMNS(ADD_NAME)
+    }
+    if (cell->step > 0) {
+        MOTE_IMPACT_COLUMNS(ADD_NAME)
     }
 #undef ADD_NAME
     mote_text_add(&text, "\n");

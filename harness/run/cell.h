@@ -51,10 +51,12 @@ typedef struct mote_cell {
     const mote_method_choice *choice; /* borrowed */
     uint32_t replicate;               /* from 1 */
     uint32_t first, last;             /* frames, inclusive */
-    uint32_t stride_asked;            /* MOTE_STRIDE_AUTO or the stride */
-    uint32_t stride;                  /* the one used, >= 1 */
-    uint64_t seed;                    /* the run's, at most MOTE_SEED_MAX */
-    bool fixed_seed;                  /* every replicate uses it */
+    uint32_t step;         /* of a subject that asks for impacts: the frames that each
+                              question spans; else 0 */
+    uint32_t stride_asked; /* MOTE_STRIDE_AUTO or the stride */
+    uint32_t stride;       /* the one used, >= 1 */
+    uint64_t seed;         /* the run's, at most MOTE_SEED_MAX */
+    bool fixed_seed;       /* every replicate uses it */
     mote_cache cache;
     uint32_t
         jobs; /* cells measured at the same time; with 2 or more, times are not comparable */
@@ -64,10 +66,14 @@ typedef struct mote_cell {
     char id[MOTE_CELL_ID_SIZE];
 } mote_cell;
 
+/* How many frames a cell measures, each the first of a question's; 0 where its frames do not
+   hold a step. */
+uint32_t mote_cell_rows(const mote_cell *cell);
+
 /* Sets cell->id: a readable beginning, then a hash of everything that determines the
    measurement: the scenario's fingerprint, the question, method, every parameter, replicate,
-   frames, stride asked, seed, cache, whether other cells ran at the same time, and program
-   (mote_program_hash). */
+   frames, step, stride asked, seed, cache, whether other cells ran at the same time, and
+   program (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
 /* X(name): further columns of cells/ID.csv for more than two bodies. The time of motion (poses
@@ -96,14 +102,34 @@ enum {
 
 extern const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT];
 
+/* X(name): further columns of cells/ID.csv where impacts are asked for. Times are parts of the
+   time from the row's frame to that of the question's end, 0 .. 1; empty where there is no
+   impact. */
+#define MOTE_IMPACT_COLUMNS(X)                                                                 \
+    X(from)       /* no impact before, as far as the method knows */                           \
+    X(to)         /* the impact */                                                             \
+    X(to_truth)   /* when the first impact is */                                               \
+    X(iterations) /* moments at which the method looked at the bodies */
+
+/* Their indices: MOTE_IMPACT_COLUMN_from. */
+enum {
+#define MOTE_IMPACT_PLACE(name) MOTE_IMPACT_COLUMN_##name,
+    MOTE_IMPACT_COLUMNS(MOTE_IMPACT_PLACE)
+#undef MOTE_IMPACT_PLACE
+        MOTE_IMPACT_COLUMN_COUNT
+};
+
+extern const char *const mote_impact_column_names[MOTE_IMPACT_COLUMN_COUNT];
+
 /* The result of one frame. For more than two bodies the answer is that of the closest near
    pair; contact says whether any pair is in contact, and counters are sums over the pairs. */
 typedef struct mote_cell_row {
     uint32_t frame;
     uint64_t deform_ns, update_ns, query_ns; /* 0 for what the method does not need */
     uint64_t allocations;                    /* during update and query */
-    mote_answer answer;
+    mote_answer answer; /* of an impact: contact says whether there is one */
     mote_scene_row scene;
+    mote_impact_answer impact;
 } mote_cell_row;
 
 /* The result of a whole cell. */

@@ -55,6 +55,7 @@ static mote_status prepare(session *s)
     const mote_cell *cell = s->cell;
     mote_cell_result *result = s->result;
     mote_engine_setup setup = mote_subject_engine(cell->subject);
+    setup.step = cell->step;
     setup.seed = mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate);
     setup.clock_ns = mote_clock_cost_ns();
     add_samples(s, &setup);
@@ -68,7 +69,7 @@ static mote_status prepare(session *s)
     if (cell->cache == MOTE_CACHE_EVICT)
         s->evict = mote_evict_create();
     for (uint32_t i = 0; i < (s->ahead ? s->ahead : 1); ++i)
-        s->frames[i] = mote_subject_frame_create(cell->subject);
+        s->frames[i] = mote_subject_frame_create(cell->subject, cell->step);
     return MOTE_OK;
 }
 
@@ -133,9 +134,17 @@ static void record(const session *s, uint32_t number, uint64_t motion_ns,
                                      .broad_ns = cost->broad_ns,
                                      .near_pairs = cost->pairs,
                                      .new_pairs = cost->fresh,
-                                     .pair_contacts = cost->contacts}};
+                                     .pair_contacts = cost->contacts},
+                           .impact = *mote_engine_impact(s->engine)};
     if (s->pairs)
         mote_cell_pairs_add(s->pairs, number, pairs, count);
+}
+
+static void show_paths(const session *s, const mote_subject_frame *frame)
+{
+    const mote_path *const paths[] = {mote_scenario_path_of(frame->path, 0),
+                                      mote_scenario_path_of(frame->path, 1)};
+    mote_engine_show_paths(s->engine, paths);
 }
 
 /* Asks about a frame. */
@@ -143,7 +152,10 @@ static mote_status ask(session *s, uint32_t number, const mote_subject_frame *fr
                        uint64_t motion_ns, mote_cell_row *row)
 {
     mote_engine_cost cost;
-    mote_engine_show(s->engine, frame->states);
+    if (frame->path)
+        show_paths(s, frame);
+    else
+        mote_engine_show(s->engine, frame->states);
     if (s->evict)
         mote_evict(s->evict);
     const mote_status status = mote_engine_ask(s->engine, &cost);
@@ -283,10 +295,8 @@ mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limi
                                         const mote_cell_pairs *pairs, mote_cell_result *result)
 {
     mote_cell_result measured = {.core = -1};
-    session s = {.cell = cell,
-                 .rows = (cell->last - cell->first) / cell->stride + 1,
-                 .pairs = pairs,
-                 .result = &measured};
+    session s = {
+        .cell = cell, .rows = mote_cell_rows(cell), .pairs = pairs, .result = &measured};
     if (frame_limit && s.rows > frame_limit)
         s.rows = frame_limit;
     mote_status status = prepare(&s);

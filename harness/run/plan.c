@@ -128,12 +128,38 @@ static mote_status check_frames(const mote_plan_options *options, const mote_sub
     if (options->last > facts.frames)
         return mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u",
                          options->first, options->last, facts.name, facts.frames);
+    if (options->last > 0 && mote_subject_asks_impacts(subject)) {
+        const uint32_t longest = options->step_count ? options->steps[options->step_count - 1]
+                                                     : subject->scenario->step;
+        if (options->last - options->first < longest)
+            return mote_fail(
+                MOTE_EINVAL,
+                "frames %u-%u: no impact is asked for within them, as a step of %s is "
+                "%u frames",
+                options->first, options->last, facts.name, longest);
+    }
     return MOTE_OK;
 }
 
-/* The cells of one scenario and replicate. */
+/* How many times a subject is asked: once with each step. */
+static uint32_t step_count(const mote_plan_options *options, const mote_subject *subject)
+{
+    return options->step_count > 0 && mote_subject_asks_impacts(subject) ? options->step_count
+                                                                         : 1;
+}
+
+static uint32_t step_of(const mote_plan_options *options, const mote_subject *subject,
+                        uint32_t k)
+{
+    if (!mote_subject_asks_impacts(subject))
+        return 0;
+    return options->step_count > 0 ? options->steps[k] : subject->scenario->step;
+}
+
+/* The cells of one scenario, step and replicate. */
 static void add_group(const mote_plan_options *options, const mote_subject *subject,
-                      uint32_t replicate, const mote_choices *choices, mote_plan *plan)
+                      uint32_t step, uint32_t replicate, const mote_choices *choices,
+                      mote_plan *plan)
 {
     const uint32_t frames = mote_subject_facts_of(subject).frames;
     for (size_t k = 0; k < choices->count; ++k) {
@@ -143,6 +169,7 @@ static void add_group(const mote_plan_options *options, const mote_subject *subj
             .replicate = replicate,
             .first = options->last ? options->first : 1,
             .last = options->last ? options->last : frames,
+            .step = step,
             .stride_asked = options->stride,
             .stride = 1,
             .seed = options->seed,
@@ -166,8 +193,8 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
         const mote_status status = check_frames(options, &subjects[s]);
         if (status != MOTE_OK)
             return status;
-        count +=
-            options->replicates * (subjects[s].bodies ? scene_choices->count : choices->count);
+        count += (size_t)options->replicates * step_count(options, &subjects[s]) *
+                 (subjects[s].bodies ? scene_choices->count : choices->count);
     }
     if (count > MOTE_CHOICES_MAX)
         return mote_fail(MOTE_EINVAL,
@@ -175,9 +202,11 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
                          MOTE_CHOICES_MAX);
     mote_plan made = {.cells = mote_allocate(count, sizeof *made.cells)};
     for (uint32_t replicate = 1; replicate <= options->replicates; ++replicate) {
-        for (size_t s = 0; s < subject_count; ++s)
-            add_group(options, &subjects[s], replicate,
-                      subjects[s].bodies ? scene_choices : choices, &made);
+        for (size_t s = 0; s < subject_count; ++s) {
+            for (uint32_t k = 0; k < step_count(options, &subjects[s]); ++k)
+                add_group(options, &subjects[s], step_of(options, &subjects[s], k), replicate,
+                          subjects[s].bodies ? scene_choices : choices, &made);
+        }
     }
     *plan = made;
     return MOTE_OK;

@@ -23,10 +23,16 @@ void mote_choices_free(mote_choices *choices);
 
 #define MOTE_REPLICATES_MAX 1000
 
+/* The largest number of steps of questions about impacts in one run. */
+#define MOTE_STEPS_MAX 32
+
 typedef struct mote_plan_options {
     uint32_t replicates;  /* 1 .. MOTE_REPLICATES_MAX */
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
+    uint32_t steps[MOTE_STEPS_MAX]; /* [step_count], ascending: scenarios of two bodies are
+                                       asked for impacts, once with each step */
+    uint32_t step_count;            /* 0: what the scenarios ask, with their own step */
     uint64_t seed;
     bool fixed_seed; /* all replicates have the same seed, so they differ only through the
                         machine */
@@ -45,8 +51,8 @@ typedef struct mote_plan {
 /* Replicates are outermost, then scenarios, then configurations in an order rotated by the
    replicate, so no method always runs first or after the same one. choices are for scenarios of
    two bodies, scene_choices for those of more. MOTE_EINVAL if the frames lie outside a
-   scenario. The cells borrow subjects and choices. cell->stride is 1 until it is known. The
-   caller frees plan->cells. */
+   scenario, or do not hold a step. The cells borrow subjects and choices. cell->stride is 1
+   until it is known. The caller frees plan->cells. */
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
                            size_t subject_count, const mote_choices *choices,
                            const mote_choices *scene_choices, mote_plan *plan);

@@ -56,6 +56,18 @@ typedef struct run {
     uint64_t opened_ns; /* when the first cell was started */
 } run;
 
+/* Asks for impacts where steps are given. */
+static mote_status ask_impacts(const mote_plan_options *plan, mote_subject *subject)
+{
+    mote_status status = MOTE_OK;
+    if (plan->step_count > 0 && subject->bodies)
+        return mote_fail(MOTE_EINVAL, "%s: impacts are asked of two bodies; it has %u",
+                         subject->bodies->name, subject->bodies->count);
+    for (uint32_t k = 0; k < plan->step_count && status == MOTE_OK; ++k)
+        status = mote_scenario_ask_impacts(subject->scenario, plan->steps[k]);
+    return status;
+}
+
 static mote_status load_subjects(run *r)
 {
     size_t count = r->options->scenario_count;
@@ -63,7 +75,11 @@ static mote_status load_subjects(run *r)
     for (size_t i = 0; i < count; ++i) {
         if (mote_child_stop_asked())
             return mote_fail(MOTE_EIO, "stopped by a signal");
-        mote_status status = mote_subject_load(r->options->scenarios[i], &r->subjects[i]);
+        mote_status status = mote_subject_open(r->options->scenarios[i], &r->subjects[i]);
+        if (status == MOTE_OK)
+            status = ask_impacts(&r->options->plan, &r->subjects[i]);
+        if (status == MOTE_OK)
+            status = mote_subject_identify(&r->subjects[i]);
         if (status != MOTE_OK)
             return status;
     }
@@ -98,11 +114,13 @@ static void look_up(run *r, size_t index)
    the one that the probe suggests. */
 static bool same_configuration(const mote_cell *a, const mote_cell *b)
 {
-    return a->subject == b->subject && a->choice == b->choice;
+    return a->subject == b->subject && a->choice == b->choice && a->step == b->step;
 }
 
 static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 {
+    if (cell->step > 0) /* one question begins where the last one ended */
+        return cell->stride_asked != MOTE_STRIDE_AUTO ? cell->stride_asked : cell->step;
     if (cell->subject->bodies || /* pairs keep state */
         mote_method_traits(cell->choice->method, cell->choice->values).keeps_state)
         return 1;
@@ -113,7 +131,7 @@ static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 
 static double expected_seconds(const mote_cell *cell, const mote_forecast *forecast)
 {
-    uint32_t frames = (cell->last - cell->first) / cell->stride + 1;
+    const uint32_t frames = mote_cell_rows(cell);
     double frame =
         forecast->frame_seconds + (cell->cache == MOTE_CACHE_EVICT ? EVICT_SECONDS : 0);
     return forecast->build_seconds + frames * frame;
@@ -192,6 +210,16 @@ static void duration_text(double seconds, char *text, size_t size)
         (void)snprintf(text, size, "%.0f min", seconds / 60);
 }
 
+/* "step 10, ", or "" where no impacts are asked for. */
+#define STEP_TEXT 24
+static const char *step_text(const mote_cell *cell, char text[STEP_TEXT])
+{
+    text[0] = '\0';
+    if (cell->step > 0)
+        (void)snprintf(text, STEP_TEXT, "step %u, ", cell->step);
+    return text;
+}
+
 static void print_plan(const run *r)
 {
     char left[32];
@@ -207,10 +235,11 @@ static void print_plan(const run *r)
         return;
     for (size_t i = 0; i < r->plan.count; ++i) {
         const mote_cell *cell = &r->plan.cells[i];
-        (void)fprintf(stderr, "  %s %s replicate %u, frames %u-%u, stride %u, %s, %s%.1f s\n",
+        char step[STEP_TEXT];
+        (void)fprintf(stderr, "  %s %s replicate %u, frames %u-%u, stride %u, %s%s, %s%.1f s\n",
                       mote_subject_facts_of(cell->subject).name, cell->choice->text,
                       cell->replicate, cell->first, cell->last, cell->stride,
-                      mote_cache_names[cell->cache],
+                      step_text(cell, step), mote_cache_names[cell->cache],
                       r->prospects[i].done ? "done, not again " : "", r->prospects[i].seconds);
     }
 }
@@ -288,6 +317,13 @@ static mote_status load_truth(run *r)
         mote_subject *subject = &r->subjects[i];
         if (subject->bodies)
             continue;
+        if (mote_subject_asks_impacts(subject)) {
+            tell_preparing(r, "impacts of", subject);
+            status =
+                mote_impact_truth_load_or_compute(subject->scenario, subject->fingerprint,
+                                                  r->options->directory, &subject->impacts);
+            continue;
+        }
         tell_preparing(r, "exact distances of", subject);
         status = mote_truth_load_or_compute_known(subject->scenario, subject->fingerprint,
                                                   r->options->directory, &subject->truth);
@@ -298,9 +334,10 @@ static mote_status load_truth(run *r)
 /* "[3/84] ww particle:n=8 r2 hot" */
 static char *cell_text(const run *r, const mote_cell *cell)
 {
-    return mote_format("[%zu/%zu] %s %s r%u %s", r->done, r->plan.count,
+    char step[STEP_TEXT];
+    return mote_format("[%zu/%zu] %s %s %sr%u %s", r->done, r->plan.count,
                        mote_subject_facts_of(cell->subject).name, cell->choice->text,
-                       cell->replicate, mote_cache_names[cell->cache]);
+                       step_text(cell, step), cell->replicate, mote_cache_names[cell->cache]);
 }
 
 /* Reports the end of a cell. A failure stays on the terminal. */

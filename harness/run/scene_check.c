@@ -34,7 +34,7 @@ mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *fact
     mote_scene_facts made = {0};
     mote_method_choice exact;
     mote_engine *engine = NULL;
-    mote_subject_frame frame = mote_subject_frame_create(subject);
+    mote_subject_frame frame = mote_subject_frame_create(subject, 0);
     const mote_engine_setup setup = mote_subject_engine(subject);
     const char *name = mote_bodies_any_given(subject->bodies) ? "stream" : "certified";
     mote_status status = mote_scene_choice_read(name, &exact);

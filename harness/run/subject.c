@@ -1,16 +1,26 @@
 #include "harness/run/subject.h"
 
+#include <assert.h>
+
 mote_status mote_subject_open(const char *name_or_path, mote_subject *subject)
 {
     return mote_bodies_is(name_or_path) ? mote_bodies_load(name_or_path, &subject->bodies)
                                         : mote_scenario_load(name_or_path, &subject->scenario);
 }
 
+bool mote_subject_asks_impacts(const mote_subject *subject)
+{
+    return subject->scenario && subject->scenario->ask == MOTE_ASK_IMPACT;
+}
+
 mote_status mote_subject_identify(mote_subject *subject)
 {
-    return subject->bodies
-               ? mote_bodies_fingerprint(subject->bodies, &subject->fingerprint)
-               : mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
+    if (subject->bodies)
+        return mote_bodies_fingerprint(subject->bodies, &subject->fingerprint);
+    mote_status status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
+    if (status == MOTE_OK && mote_subject_asks_impacts(subject))
+        status = mote_scenario_path_fingerprint(subject->scenario, &subject->fingerprint);
+    return status;
 }
 
 mote_status mote_subject_load(const char *name_or_path, mote_subject *subject)
@@ -22,6 +32,7 @@ mote_status mote_subject_load(const char *name_or_path, mote_subject *subject)
 void mote_subject_free(mote_subject *subject)
 {
     mote_truth_destroy(subject->truth);
+    mote_impact_truth_destroy(subject->impacts);
     mote_scenario_destroy(subject->scenario);
     mote_bodies_destroy(subject->bodies);
     *subject = (mote_subject){0};
@@ -82,6 +93,7 @@ mote_engine_setup mote_subject_engine(const mote_subject *subject)
         mote_engine_setup setup = mote_engine_setup_of_two(&pair->body[0], &pair->body[1]);
         setup.length = pair->length;
         setup.ask = pair->ask;
+        setup.step = pair->step;
         setup.tolerance = pair->tolerance;
         return setup;
     }
@@ -97,13 +109,19 @@ mote_engine_setup mote_subject_engine(const mote_subject *subject)
     return setup;
 }
 
-mote_subject_frame mote_subject_frame_create(const mote_subject *subject)
+mote_subject_frame mote_subject_frame_create(const mote_subject *subject, uint32_t step)
 {
     mote_subject_frame frame = {.pair = NULL};
-    if (subject->bodies)
+    if (step > 0) {
+        const mote_status status =
+            mote_scenario_path_create(subject->scenario, step, &frame.path);
+        assert(status == MOTE_OK); /* mote_scenario_ask_impacts has tried it */
+        (void)status;
+    } else if (subject->bodies) {
         frame.scene = mote_bodies_frame_create(subject->bodies);
-    else
+    } else {
         frame.pair = mote_frame_buffer_create(subject->scenario);
+    }
     return frame;
 }
 
@@ -111,13 +129,16 @@ void mote_subject_frame_free(mote_subject_frame *frame)
 {
     mote_frame_buffer_destroy(frame->pair);
     mote_bodies_frame_free(&frame->scene);
+    mote_scenario_path_destroy(frame->path);
     *frame = (mote_subject_frame){.pair = NULL};
 }
 
 mote_status mote_subject_frame_set(const mote_subject *subject, uint32_t number,
                                    uint32_t previous, mote_subject_frame *frame)
 {
-    if (subject->bodies) {
+    if (frame->path) {
+        mote_scenario_path_set(frame->path, number);
+    } else if (subject->bodies) {
         frame->states = frame->scene.states;
         return mote_bodies_frame_set(subject->bodies, number, &frame->scene);
     } else {

@@ -4,8 +4,10 @@
 #define MOTE_HARNESS_SUBJECT_H
 
 #include "harness/engine/engine.h"
+#include "harness/run/impact_truth.h"
 #include "harness/run/truth.h"
 #include "harness/scene/bodies.h"
+#include "harness/scene/scenario_path.h"
 
 /* Zero-initialise. */
 typedef struct mote_subject {
@@ -15,7 +17,11 @@ typedef struct mote_subject {
     mote_truth
         *truth; /* two bodies; NULL until something is measured. There is none for more bodies:
                    contacts are compared with those of an exact method of the run */
+    mote_impact_truth *impacts; /* likewise of a scenario that asks for impacts, in its place */
 } mote_subject;
+
+/* Whether it asks for impacts. */
+bool mote_subject_asks_impacts(const mote_subject *subject);
 
 /* mote_subject_open loads a scenario of two or more bodies (names as for mote_scenario_load and
    mote_bodies_load); mote_subject_identify computes its fingerprint, which reads its frames;
@@ -42,7 +48,8 @@ typedef struct mote_subject_facts {
 
 mote_subject_facts mote_subject_facts_of(const mote_subject *subject);
 
-/* The setup of an engine for its bodies and its question; seed and clock_ns are 0. */
+/* The setup of an engine for its bodies and its question; seed and clock_ns are 0, and the step
+   is the scenario's. */
 mote_engine_setup mote_subject_engine(const mote_subject *subject);
 
 /* The bodies of one frame, with memory for their weights. */
@@ -51,9 +58,12 @@ typedef struct mote_subject_frame {
                                       positions are given */
     mote_frame_buffer *pair;
     mote_bodies_frame scene;
+    mote_scenario_path *path; /* in place of states: the bodies between this frame and a later
+                                 one; NULL: frames */
 } mote_subject_frame;
 
-mote_subject_frame mote_subject_frame_create(const mote_subject *subject);
+/* step: frames that paths span, where impacts are asked for; 0: frames, no paths. */
+mote_subject_frame mote_subject_frame_create(const mote_subject *subject, uint32_t step);
 void mote_subject_frame_free(mote_subject_frame *frame);
 
 /* Sets poses and weights of all bodies at a frame (1 .. frames). previous: the frame that the

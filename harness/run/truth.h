@@ -4,6 +4,7 @@
 #ifndef MOTE_HARNESS_TRUTH_H
 #define MOTE_HARNESS_TRUTH_H
 
+#include "harness/base/file.h"
 #include "harness/scene/scenario.h"
 
 typedef struct mote_truth {
@@ -50,5 +51,10 @@ mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
                             const char *path, mote_truth **truth);
 mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,
                              const char *path);
+
+/* Adds a last line with a hash of the text, so that a truncated or edited file is rejected; and
+   checks that line and cuts it off, false if the text is incomplete. */
+void mote_truth_seal(mote_text *text);
+bool mote_truth_unseal(char *text, size_t size);
 
 #endif

@@ -38,6 +38,12 @@ static void add_row(mote_text *text, const mote_truth *truth, uint32_t k)
         mote_text_add(text, ",%.17g\n", truth->overruled[k]);
 }
 
+void mote_truth_seal(mote_text *text)
+{
+    const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text->data, text->size);
+    mote_text_add(text, "# hash %016" PRIx64 "\n", hash);
+}
+
 mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,
                              const char *path)
 {
@@ -46,8 +52,7 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
     mote_text_add(&text, "%s%u" FIRST_END COLUMNS, first, truth->checked);
     for (uint32_t k = 0; k < truth->frames; ++k)
         add_row(&text, truth, k);
-    const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
-    mote_text_add(&text, "# hash %016" PRIx64 "\n", hash);
+    mote_truth_seal(&text);
     const mote_status status = mote_file_write(path, text.data, text.size);
     free(first);
     free(text.data);
@@ -89,8 +94,7 @@ static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
     return end != at && *end == '\n' ? end + 1 : NULL;
 }
 
-/* Checks the last line and cuts it off; false if the text is incomplete. */
-static bool check_hash(char *text, size_t size)
+bool mote_truth_unseal(char *text, size_t size)
 {
     static const size_t last_size = sizeof "# hash 0123456789abcdef\n" - 1;
     if (size < last_size)
@@ -123,7 +127,7 @@ static const char *read_head(const mote_scenario *scenario, uint64_t fingerprint
 static bool read_text(const mote_scenario *scenario, uint64_t fingerprint, char *text,
                       size_t size, mote_truth *truth)
 {
-    if (!check_hash(text, size))
+    if (!mote_truth_unseal(text, size))
         return false;
     const char *at = read_head(scenario, fingerprint, text, truth);
     for (uint32_t k = 0; at && k < truth->frames; ++k)

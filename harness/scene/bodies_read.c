@@ -200,10 +200,14 @@ static mote_status read_wish(const mote_json *node, mote_bodies *bodies, mote_bo
 static mote_status read_facts(const mote_json_file *file, mote_bodies *bodies)
 {
     mote_json root = mote_json_root(file);
-    mote_status status = mote_json_object(&root, "purpose|bodies|frames|ask|tolerance");
+    mote_status status = mote_json_object(&root, "purpose|bodies|frames|ask|step|tolerance");
     mote_scenario facts = {.motion = mote_allocate(1, sizeof *facts.motion)};
     if (status == MOTE_OK)
         status = mote_scenario_read_facts(&root, &facts);
+    const mote_json ask = mote_json_member(&root, "ask");
+    if (status == MOTE_OK && facts.ask == MOTE_ASK_IMPACT)
+        status =
+            mote_json_fail(&ask, "impacts are asked of two bodies; of more, ask for contact");
     bodies->frames = facts.frames;
     bodies->ask = facts.ask;
     bodies->tolerance = facts.tolerance;

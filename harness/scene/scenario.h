@@ -16,10 +16,19 @@ typedef struct mote_scenario {
     uint32_t frames;
     mote_interval warmup, active;
     mote_ask ask;
+    uint32_t step;              /* frames that a question about impacts spans; 0: of others */
     double tolerance;           /* absolute: the file's times L of the pair */
     double length;              /* L of the pair */
     struct mote_motion *motion; /* poses and weights over frames; opaque */
 } mote_scenario;
+
+/* The words of a file's "ask", in the order of mote_ask; NULL behind the last. */
+extern const char *const mote_ask_names[];
+
+/* Asks for impacts from now on, `step` frames at a time, whatever the file asks. MOTE_EINVAL
+   with the scenario's name for a step that is not 1 .. frames - 1; MOTE_EUNSUPPORTED for a body
+   of which the path between two frames is not known (mote_scenario_path_create). */
+mote_status mote_scenario_ask_impacts(mote_scenario *scenario, uint32_t step);
 
 /* A scenario made from two mesh files: "pair:A.obj:B.obj" has 1,000 frames of approach,
    contacts (the first between frames 100 and 200, in 10 to 20 % of the frames) and separation,

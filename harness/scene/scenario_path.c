@@ -1,5 +1,6 @@
 #include "harness/scene/scenario_path.h"
 
+#include "harness/base/hash.h"
 #include "harness/base/memory.h"
 #include "harness/scene/motion.h"
 
@@ -30,11 +31,17 @@ mote_status mote_scenario_path_create(const mote_scenario *scenario, uint32_t st
                                       mote_scenario_path **path)
 {
     for (int i = 0; i < 2; ++i) {
+        const mote_field *field = scenario->body[i].field;
         if (mote_body_is_given(&scenario->body[i]))
             return mote_fail(MOTE_EUNSUPPORTED,
                              "the paths of body %d's vertices between frames are not known: "
                              "only positions are given",
                              i);
+        if (field->count > 0 && !field->kind->basis)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "body %d deforms by %s, which is not linear in its weights: paths "
+                             "between frames are of bodies that are",
+                             i, field->kind->name);
     }
     mote_scenario_path *made = mote_allocate(1, sizeof *made);
     made->scenario = scenario;
@@ -165,4 +172,32 @@ void mote_scenario_path_set(mote_scenario_path *path, uint32_t frame)
 const mote_path *mote_scenario_path_of(const mote_scenario_path *path, int i)
 {
     return &path->body[i].path;
+}
+
+static uint64_t hash_piece(uint64_t hash, const mote_path_piece *piece, size_t padded)
+{
+    hash = mote_hash_bytes(hash, piece->centre, sizeof piece->centre);
+    hash = mote_hash_bytes(hash, piece->turn, sizeof piece->turn);
+    return piece->weights
+               ? mote_hash_bytes(hash, piece->weights, 12 * padded * sizeof *piece->weights)
+               : hash;
+}
+
+mote_status mote_scenario_path_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint)
+{
+    mote_scenario_path *path = NULL;
+    const mote_status status = mote_scenario_path_create(scenario, 1, &path);
+    if (status != MOTE_OK)
+        return status;
+    for (int i = 0; i < 2; ++i)
+        *fingerprint = mote_hash_bytes(*fingerprint, &path->body[i].path.pivot,
+                                       sizeof path->body[i].path.pivot);
+    for (uint32_t frame = 1; frame < scenario->frames; ++frame) {
+        mote_scenario_path_set(path, frame);
+        for (int i = 0; i < 2; ++i)
+            *fingerprint = hash_piece(*fingerprint, path->body[i].path.pieces,
+                                      scenario->body[i].field->padded);
+    }
+    mote_scenario_path_destroy(path);
+    return MOTE_OK;
 }

@@ -12,8 +12,8 @@
 
 typedef struct mote_scenario_path mote_scenario_path;
 
-/* For paths of `step` >= 1 frames. MOTE_EUNSUPPORTED for a body of which positions are given.
-   The caller destroys *path. */
+/* For paths of `step` >= 1 frames. MOTE_EUNSUPPORTED for a body of which positions are given or
+   whose field is not linear in its weights. The caller destroys *path. */
 mote_status mote_scenario_path_create(const mote_scenario *scenario, uint32_t step,
                                       mote_scenario_path **path);
 void mote_scenario_path_destroy(mote_scenario_path *path); /* NULL is allowed */
@@ -24,5 +24,11 @@ void mote_scenario_path_set(mote_scenario_path *path, uint32_t frame);
 
 /* The path of body i, valid until the next set. */
 const mote_path *mote_scenario_path_of(const mote_scenario_path *path, int i);
+
+/* Carries a fingerprint (mote_scenario_fingerprint) on over the control points of the bodies'
+   paths between all frames: what comes before the first and after the last frame has a part in
+   them. Errors of mote_scenario_path_create. */
+mote_status mote_scenario_path_fingerprint(const mote_scenario *scenario,
+                                           uint64_t *fingerprint);
 
 #endif

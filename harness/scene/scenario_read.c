@@ -2,6 +2,7 @@
 #include "harness/scene/scenario_read.h"
 
 #include "harness/scene/catalog.h"
+#include "harness/scene/scenario_path.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 
@@ -9,6 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+const char *const mote_ask_names[] = {"distance", "contact", "impact", NULL};
 
 static mote_status read_interval(const mote_json *root, const char *name, uint32_t frames,
                                  mote_interval *interval)
@@ -40,13 +43,52 @@ static mote_status read_ask(const mote_json *root, mote_ask *ask)
     mote_status status = mote_json_string(&node, &word);
     if (status != MOTE_OK)
         return status;
-    if (strcmp(word, "distance") == 0)
-        *ask = MOTE_ASK_DISTANCE;
-    else if (strcmp(word, "contact") == 0)
-        *ask = MOTE_ASK_CONTACT;
-    else
-        status = mote_json_fail(&node, "%s is neither distance nor contact", word);
+    for (int k = 0; mote_ask_names[k]; ++k) {
+        if (strcmp(word, mote_ask_names[k]) == 0) {
+            *ask = (mote_ask)k;
+            return MOTE_OK;
+        }
+    }
+    return mote_json_fail(&node, "%s is neither distance, contact nor impact", word);
+}
+
+/* "step": of questions about impacts, which need it. */
+static mote_status read_step(const mote_json *root, mote_scenario *scenario)
+{
+    mote_json node = mote_json_member(root, "step"), ask = mote_json_member(root, "ask");
+    if (scenario->ask != MOTE_ASK_IMPACT)
+        return node.value ? mote_json_fail(&node, "a step is of scenarios that ask for impact")
+                          : MOTE_OK;
+    if (!node.value)
+        return mote_json_fail(&ask,
+                              "a scenario that asks for impact needs \"step\", the frames "
+                              "that each question spans");
+    if (scenario->frames < 2)
+        return mote_json_fail(&ask, "one frame alone; an impact is between two of them");
+    int64_t step = 0;
+    const mote_status status = mote_json_integer(&node, 1, scenario->frames - 1, &step);
+    scenario->step = (uint32_t)step;
     return status;
+}
+
+mote_status mote_scenario_ask_impacts(mote_scenario *scenario, uint32_t step)
+{
+    if (step < 1 || step >= scenario->frames)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: a step of %u frames; it has %u frames, so that a step is 1 to %u",
+                         scenario->name, step, scenario->frames, scenario->frames - 1);
+    mote_scenario_path *path = NULL;
+    if (mote_scenario_path_create(scenario, 1, &path) != MOTE_OK) {
+        char *why = mote_duplicate(mote_error_text());
+        const mote_status status = mote_fail(
+            mote_error_status(), "%s: %s; ask for distance or contact", scenario->name, why);
+        free(why);
+        return status;
+    }
+    mote_scenario_path_destroy(path);
+    scenario->ask = MOTE_ASK_IMPACT;
+    scenario->step = step;
+    return MOTE_OK;
 }
 
 mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scenario)
@@ -61,6 +103,8 @@ mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scena
         status = read_interval(root, "active", scenario->frames, &scenario->active);
     if (status == MOTE_OK)
         status = read_ask(root, &scenario->ask);
+    if (status == MOTE_OK)
+        status = read_step(root, scenario);
     key = mote_json_member(root, "tolerance");
     if (status == MOTE_OK && key.value)
         status = mote_json_real(&key, 0, 1e3, &scenario->tolerance);
@@ -200,13 +244,17 @@ static mote_status read_scenario(const mote_json_file *file, mote_scenario *scen
     scenario->motion = mote_allocate(1, sizeof *scenario->motion);
     scenario->path = mote_duplicate(file->path);
     scenario->name = mote_scenario_name_of(file->path);
-    mote_status status =
-        mote_json_object(&root, "purpose|bodies|frames|start|pace|warmup|active|ask|tolerance");
+    mote_status status = mote_json_object(
+        &root, "purpose|bodies|frames|start|pace|warmup|active|ask|step|tolerance");
     if (status == MOTE_OK)
         status = mote_scenario_read_facts(&root, scenario);
     if (status == MOTE_OK)
         status = read_bodies(&root, scenario);
     scenario->tolerance *= scenario->length;
+    if (status == MOTE_OK && scenario->ask == MOTE_ASK_IMPACT) {
+        const mote_json ask = mote_json_member(&root, "ask");
+        status = mote_json_blame(&ask, mote_scenario_ask_impacts(scenario, scenario->step));
+    }
     return status;
 }
 

@@ -23,8 +23,8 @@ mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file);
 /* Whether a file's root describes several bodies (harness/scene/bodies.h). */
 bool mote_scenario_of_bodies(const mote_json_file *file);
 
-/* Reads "frames", "warmup", "active", "ask", "tolerance", "start", "pace" and "purpose" into a
-   scenario with a motion; tolerance is in L. */
+/* Reads "frames", "warmup", "active", "ask", "step", "tolerance", "start", "pace" and "purpose"
+   into a scenario with a motion; tolerance is in L. */
 mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scenario);
 
 /* The scenario name from a file's path: without folder, ".json" and control characters. */

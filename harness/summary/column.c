@@ -132,6 +132,15 @@
             false                                                                              \
         }                                                                                      \
     }
+/* A number of questions about impacts; `first` of its object: without it there is none. Last
+   its position in their table; in the report they come behind all others. */
+#define IMPACT(member, first, in, says, above, below, shown, at)                               \
+    {                                                                                          \
+        .object = "impact", .key = #member, .csv = "impact_" #member,                          \
+        .type = MOTE_COLUMN_REAL, .optional = first, .unit = in, .meaning = says,              \
+        AT(impact.member), .group = above, .head = below, .show = shown,                       \
+        .place = PLACE(0, 100 + (at), 0, 0, at)                                                \
+    }
 /* NOLINTEND(bugprone-macro-parentheses) */
 
 const mote_column mote_columns[] = {
@@ -189,8 +198,8 @@ const mote_column mote_columns[] = {
      AT(ending),
      .schema = "{\"enum\": [\"ok\", \"crashed\", \"timeout\", \"unsupported\"]}"},
     TIME(total, "total_ns", "total", "Deform, update and query together", "total",
-         PLACE(10, 10, 10, 10), PLACE(11, 11, 0, 11), PLACE(12, 12, 0, 12),
-         PLACE(13, 13, 0, 13)),
+         PLACE(10, 10, 10, 10, 10), PLACE(11, 11, 0, 11, 11), PLACE(12, 12, 0, 12, 12),
+         PLACE(13, 13, 0, 13, 13)),
     TIME(deform, "deform_ns", "deform", "Deforming all vertices, for methods that need them",
          NULL, PLACE(14, 93), NOWHERE, NOWHERE, NOWHERE),
     TIME(update, "update_ns", "update", "Updating the structures: the refit", NULL,
@@ -260,17 +269,20 @@ const mote_column mote_columns[] = {
      AT(error.exact_rate_separated)},
     CONTACTS(contacts,
              "Frames in contact (of more than two bodies: pairs and frames); mean over "
-             "replicates",
-             "", NULL, NULL, PLACE(0, 0, 0)),
+             "replicates; of impacts: questions with one",
+             "all", NULL, NULL, PLACE(0, 0, 0, 0, 49)),
     CONTACTS(
         missed,
-        "Frames in contact that the method reports as not in contact; mean over replicates",
-        "missed", "missed", "missed", PLACE(50, 50, 50, 50)),
-    CONTACTS(false_contacts,
-             "Frames not in contact that the method reports as contacts; mean over replicates",
-             "false", "false", "false contacts", PLACE(51, 51, 51, 51)),
+        "Frames in contact that the method reports as not in contact; mean over replicates. Of "
+        "impacts: questions with one, of which the method finds none, or a later one alone",
+        "missed", "missed", "missed", PLACE(50, 50, 50, 50, 50)),
+    CONTACTS(
+        false_contacts,
+        "Frames not in contact that the method reports as contacts; mean over replicates. Of "
+        "impacts: questions without one",
+        "false", "false", "false contacts", PLACE(51, 51, 51, 51, 51)),
     BYTES(heap_live_bytes, "Heap held by the method; the shared rest mesh and field left out",
-          "heap", "heap", PLACE(60, 60, 60)),
+          "heap", "heap", PLACE(60, 60, 60, 0, 60)),
     BYTES(heap_peak_bytes, "The largest heap that it held", NULL, "heap peak", PLACE(0, 0, 0)),
     BYTES(rss_peak_bytes, "Peak resident memory of the process", NULL, NULL, PLACE(0, 0, 0)),
     {.key = "machine",
@@ -407,9 +419,9 @@ const mote_column mote_columns[] = {
     {.key = "ask",
      .optional = true,
      .unit = "",
-     .meaning = "What each frame is asked: `distance` or `contact`",
+     .meaning = "What each frame is asked: `distance`, `contact` or `impact`",
      AT(ask),
-     .schema = "{\"enum\": [\"distance\", \"contact\"]}"},
+     .schema = "{\"enum\": [\"distance\", \"contact\", \"impact\"]}"},
     {.key = "tolerance",
      .type = MOTE_COLUMN_REAL,
      .optional = true,
@@ -464,6 +476,32 @@ const mote_column mote_columns[] = {
      .unit = "",
      .meaning = "Likewise how many times slower fcl-aabb is; null below ten replicates",
      AT(quiet.ratio)},
+    {.key = "step",
+     .csv = "step",
+     .type = MOTE_COLUMN_COUNT,
+     .optional = true,
+     .unit = "frames",
+     .meaning = "Where impacts are asked for: the frames that each question spans",
+     AT(step),
+     .schema = POSITIVE},
+    IMPACT(
+        undecided, true, "questions",
+        "Questions about impacts that the method leaves open: it grazes, has given up, or has "
+        "failed; mean over replicates",
+        "contacts", "open", mote_show_count, 52),
+    IMPACT(
+        bracket, false, "share",
+        "The widest bracket of an impact: from the time before which the method knows none to "
+        "that of the impact, as a part of the question's time",
+        "impact", "bracket", mote_show_error, 40),
+    IMPACT(delay, false, "frames",
+           "How far a time of impact is from that of the first one at most, in frames",
+           "impact", "delay", mote_show_error, 41),
+    IMPACT(iterations_median, false, "moments",
+           "Moments at which the method looked at the bodies: median over the questions",
+           "iterations", "median", mote_show_count, 30),
+    IMPACT(iterations_p95, false, "moments", "Their 95th percentile", "iterations", "p95",
+           mote_show_count, 31),
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

@@ -32,6 +32,7 @@ typedef enum mote_view {
     MOTE_VIEW_REPORT,  /* report.html; report.md has those with `brief` */
     MOTE_VIEW_SCREEN,  /* the screen at the end of `make bench` */
     MOTE_VIEW_ENGINES, /* the same of `make engines` */
+    MOTE_VIEW_IMPACTS, /* `mote summarize`, of scenes that are asked for impacts */
     MOTE_VIEWS
 } mote_view;
 

@@ -66,6 +66,8 @@ static void free_cell(mote_stored_cell *cell)
     free(cell->total_ns);
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k)
         free(cell->scene[k]);
+    for (int k = 0; k < MOTE_IMPACT_COLUMN_COUNT; ++k)
+        free(cell->impact[k]);
 }
 
 void mote_stored_free(mote_stored *stored)
@@ -108,6 +110,11 @@ static void make_arrays(mote_stored_cell *cell, size_t frames)
     cell->total_ns = mote_allocate(frames, sizeof *cell->total_ns);
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT && cell->bodies > 0; ++k)
         cell->scene[k] = mote_allocate(frames, sizeof *cell->scene[k]);
+    for (int k = 0; k < MOTE_IMPACT_COLUMN_COUNT && cell->step > 0; ++k) {
+        cell->impact[k] = mote_allocate(frames, sizeof *cell->impact[k]);
+        for (size_t i = 0; i < frames; ++i)
+            cell->impact[k][i] = MOTE_NONE; /* a cell may lack the column */
+    }
 }
 
 static int find_column(const char *name, size_t length)
@@ -123,6 +130,10 @@ static int find_column(const char *name, size_t length)
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k) {
         if (mote_cell_is_name(mote_scene_column_names[k], name, length))
             return FRAME_COLUMNS + MOTE_STORED_COUNTS + k;
+    }
+    for (int k = 0; k < MOTE_IMPACT_COLUMN_COUNT; ++k) {
+        if (mote_cell_is_name(mote_impact_column_names[k], name, length))
+            return FRAME_COLUMNS + MOTE_STORED_COUNTS + MOTE_SCENE_COLUMN_COUNT + k;
     }
     return -1;
 }
@@ -170,8 +181,12 @@ static void put_value(void *context, int index, double value)
     mote_stored_cell *cell = to->cell;
     const bool none = value != value;
     const int count = index - FRAME_COLUMNS, scene = count - MOTE_STORED_COUNTS;
+    const int impact = scene - MOTE_SCENE_COLUMN_COUNT;
     if (index < FRAME_COLUMNS) {
         put_field(cell, to->row, index, value);
+    } else if (impact >= 0) {
+        if (cell->impact[impact])
+            cell->impact[impact][to->row] = value;
     } else if (scene >= 0 && cell->scene[scene]) {
         cell->scene[scene][to->row] = none ? 0 : value;
     } else if (scene < 0 && !none) {
@@ -217,10 +232,10 @@ static char *group_name(const mote_stored_cell *cell)
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group =
-        mote_format("%s %s %s %s %s %s %s %.17g stride %u seed %" PRIu64 " on %s%s%s",
+        mote_format("%s %s %s %s %s %s %s %.17g step %u stride %u seed %" PRIu64 " on %s%s%s",
                     cell->scenario, cell->cache, cell->method, parameters, cell->fingerprint,
-                    frames, cell->ask, mote_stored_number(cell, "tolerance"), cell->stride,
-                    cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
+                    frames, cell->ask, mote_stored_number(cell, "tolerance"), cell->step,
+                    cell->stride, cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
                     json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
@@ -290,6 +305,7 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->last = frame_number(json_array_get(shown[2], 1));
     cell->machine = mote_text_at(cell->json, "machine");
     cell->ask = mote_text_at(cell->json, "ask");
+    cell->step = frame_number(json_object_get(cell->json, "step"));
     cell->read_ns = mote_stored_number(cell, "read_ns");
     const json_int_t bodies = json_integer_value(json_object_get(cell->json, "bodies"));
     cell->bodies = bodies > 0 && bodies <= MOTE_BODIES_MAX ? (uint32_t)bodies : 0;

@@ -34,6 +34,7 @@ typedef struct mote_stored_cell {
     uint64_t seed;           /* the run's */
     uint64_t replicate_seed; /* the seed of this process: mote_replicate_seed */
     uint32_t jobs;           /* cells that ran at the same time; 1: times are comparable */
+    uint32_t step;           /* frames that a question about impacts spans; 0: of others */
     uint32_t first, last;    /* of the frames requested; 0 if the cell does not store it */
     uint32_t active_first, active_last; /* 0, 0 if the scenario names none */
     size_t frames;
@@ -46,8 +47,10 @@ typedef struct mote_stored_cell {
     double *truth;
     signed char *contact; /* 1, 0, or -1 without an answer */
     signed char *contact_truth;
-    double *scene[MOTE_SCENE_COLUMN_COUNT]; /* more than two bodies; otherwise NULL */
-    uint32_t bodies;                        /* if more than two; 0: two bodies */
+    double *scene[MOTE_SCENE_COLUMN_COUNT];   /* more than two bodies; otherwise NULL */
+    double *impact[MOTE_IMPACT_COLUMN_COUNT]; /* of questions about impacts: MOTE_NONE where a
+                                                 field is empty; otherwise NULL */
+    uint32_t bodies;                          /* if more than two; 0: two bodies */
     mote_stored_count counts[MOTE_STORED_COUNTS];
 } mote_stored_cell;
 

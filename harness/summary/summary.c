@@ -166,13 +166,14 @@ static void make_rows(mote_summary *summary)
    one name. */
 static char *name_scene(const mote_summary *summary, const mote_summary_row *row)
 {
-    bool scenes = false, questions = false, tolerances = false;
+    bool scenes = false, questions = false, steps = false, tolerances = false;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (strcmp(other->scenario, row->scenario) != 0)
             continue;
         const double a = row->tolerance, b = other->tolerance;
         scenes = scenes || strcmp(other->fingerprint, row->fingerprint) != 0;
+        steps = steps || (row->step > 0 && row->step != other->step);
         questions = questions || strcmp(other->ask, row->ask) != 0;
         tolerances = tolerances || a < b || a > b || (a == a) != (b == b);
     }
@@ -182,6 +183,8 @@ static char *name_scene(const mote_summary *summary, const mote_summary_row *row
         mote_text_add(&text, " (scene %.*s)", SHOWN_DIGITS, row->fingerprint);
     if (questions)
         mote_text_add(&text, " (asks for %s)", row->ask[0] ? row->ask : "anything");
+    if (steps)
+        mote_text_add(&text, " (step %u)", row->step);
     if (tolerances)
         mote_text_add(&text, " (tolerance %g)", row->tolerance);
     return text.data;

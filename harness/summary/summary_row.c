@@ -38,6 +38,11 @@ DEFINE_VALUE(query_of, cell->query_ns[frame])
 DEFINE_VALUE(given_of, cell->update_ns[frame] + cell->query_ns[frame])
 DEFINE_VALUE(read_of, cell->update_ns[frame] + cell->query_ns[frame] + cell->read_ns)
 DEFINE_VALUE(error_of, cell->error[frame])
+DEFINE_VALUE(bracket_of, cell->impact[MOTE_IMPACT_COLUMN_to][frame] -
+                             cell->impact[MOTE_IMPACT_COLUMN_from][frame])
+DEFINE_VALUE(delay_of, cell->step *fabs(cell->impact[MOTE_IMPACT_COLUMN_to][frame] -
+                                        cell->impact[MOTE_IMPACT_COLUMN_to_truth][frame]))
+DEFINE_VALUE(iterations_of, cell->impact[MOTE_IMPACT_COLUMN_iterations][frame])
 #undef DEFINE_VALUE
 
 /* Gathers the values of a row's replicates over the frames first .. last (0, 0: all). */
@@ -160,6 +165,48 @@ static void make_error(const mote_summary_row *row, mote_error_summary *error)
     count_exact(row, error);
 }
 
+/* A quantile of a value over all questions about impacts. */
+static double impact_quantile(const mote_summary_row *row, value_of value, double part)
+{
+    slice s = gather(row, value, 0, UINT32_MAX);
+    double found = MOTE_NONE;
+    if (s.total > 0) {
+        mote_statistics_sort(s.all, s.total);
+        found = mote_statistics_quantile(s.all, s.total, part);
+    }
+    free_slice(&s);
+    return found;
+}
+
+static void make_impact(mote_summary_row *row)
+{
+    row->impact = (mote_impact_summary){MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE};
+    if (row->step == 0 || row->finished == 0)
+        return;
+    double undecided = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        for (size_t k = 0; k < row->cells[r].frames; ++k)
+            undecided += row->cells[r].contact[k] < 0 ? 1 : 0;
+    }
+    row->impact.undecided = undecided / (double)row->finished;
+    row->impact.bracket = impact_quantile(row, bracket_of, 1);
+    row->impact.delay = impact_quantile(row, delay_of, 1);
+    row->impact.iterations_median = impact_quantile(row, iterations_of, 0.5);
+    row->impact.iterations_p95 = impact_quantile(row, iterations_of, 0.95);
+}
+
+/* What the first impact of the truth may be off by, as a part of a question's time: it was
+   bisected. */
+#define IMPACT_ROUNDING 1e-9
+
+/* Whether a method says that there is no impact before a time at which there is one. */
+static bool is_too_late(const mote_stored_cell *cell, size_t frame)
+{
+    return cell->step > 0 &&
+           cell->impact[MOTE_IMPACT_COLUMN_from][frame] >
+               cell->impact[MOTE_IMPACT_COLUMN_to_truth][frame] + IMPACT_ROUNDING;
+}
+
 static void count_contacts(mote_summary_row *row)
 {
     double answers = 0, contacts = 0, missed = 0, false_contacts = 0;
@@ -170,7 +217,7 @@ static void count_contacts(mote_summary_row *row)
             if (cell->contact[k] < 0 || cell->contact_truth[k] < 0)
                 continue;
             answers += 1;
-            missed += cell->contact_truth[k] > cell->contact[k] ? 1 : 0;
+            missed += cell->contact_truth[k] > cell->contact[k] || is_too_late(cell, k) ? 1 : 0;
             false_contacts += cell->contact_truth[k] < cell->contact[k] ? 1 : 0;
         }
     }
@@ -358,6 +405,8 @@ int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
         order = strcmp(a->fingerprint, b->fingerprint);
     if (order == 0)
         order = strcmp(a->ask, b->ask);
+    if (order == 0)
+        order = (a->step > b->step) - (a->step < b->step);
     return order ? order : by_number(a->tolerance, b->tolerance);
 }
 
@@ -441,6 +490,7 @@ static void describe(mote_summary_row *row)
     row->frame_range[0] = cell->first;
     row->frame_range[1] = cell->last;
     row->stride = cell->stride;
+    row->step = cell->step;
     row->jobs = cell->jobs;
     row->times_comparable = cell->jobs == 1;
     read_two(cell->json, "triangles", row->triangles);
@@ -476,6 +526,7 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     make_processes(&made);
     make_times(&made);
     make_error(&made, &made.error);
+    make_impact(&made);
     return made;
 }
 

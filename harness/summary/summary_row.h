@@ -57,6 +57,14 @@ typedef struct mote_error_summary {
 
 #define MOTE_EXACT_ERROR 1e-9
 
+/* Of questions about impacts; MOTE_NONE of others. */
+typedef struct mote_impact_summary {
+    double undecided; /* mean over replicates */
+    double bracket;   /* the widest, as a part of a question's time */
+    double delay;     /* the largest distance in time from the first impact, in frames */
+    double iterations_median, iterations_p95;
+} mote_impact_summary;
+
 /* Everything in summary.json about a configuration, and its origin. Each member from `scenario`
    on is a column (column.h), by which rows are written and read; missing texts are "" and
    missing numbers MOTE_NONE. */
@@ -81,6 +89,7 @@ struct mote_summary_row {
     uint64_t seed;
     uint32_t frame_range[2]; /* first and last of the frames requested */
     uint32_t stride, jobs;   /* jobs: cells that ran at the same time */
+    uint32_t step;           /* frames that a question about impacts spans; 0: of others */
     uint32_t triangles[2], vertices[2];
     uint32_t bodies, shapes;  /* 0: two bodies */
     double near_pairs_wanted; /* per body, as the scenario requests */
@@ -98,6 +107,7 @@ struct mote_summary_row {
     mote_ratio ratio_best;  /* to the fastest FCL row over this row's frames */
     mote_ratio ratio_engine; /* likewise, of all engines of others whose answers are right */
     mote_error_summary error;
+    mote_impact_summary impact;
     double contacts, missed, false_contacts; /* frames, mean over replicates */
     /* For more than two bodies, contacts count pairs and frames; missed and false_contacts are
        relative to another row, an exact one. */
@@ -150,7 +160,8 @@ bool mote_summary_row_measured(const mote_summary_row *row);
 bool mote_summary_contacts_right(const mote_summary_row *row);
 bool mote_summary_row_right(const mote_summary_row *row);
 
-/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question. 0:
+/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question, its
+   step and its tolerance. 0:
    the same frames and question on one machine. Different scenes are never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);
 

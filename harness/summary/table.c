@@ -97,9 +97,12 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
     char shown[MOTE_NUMBER_TEXT];
     mote_text text = {0};
     describe_bodies(row, &text);
-    mote_text_add(&text, ", %s frames, %zu replicate%s, caches %s",
-                  mote_show_whole((double)frames, shown), replicates,
-                  replicates == 1 ? "" : "s", row->cache);
+    mote_text_add(&text, row->step > 0 ? ", %s questions about impacts" : ", %s frames",
+                  mote_show_whole((double)frames, shown));
+    if (row->step > 0)
+        mote_text_add(&text, " in %s frames", mote_show_whole(row->step, shown));
+    mote_text_add(&text, ", %zu replicate%s, caches %s", replicates, replicates == 1 ? "" : "s",
+                  row->cache);
     if (mote_summary_machines_differ(summary))
         mote_text_add(&text, ", on %s", row->machine);
     return text.data;
@@ -133,6 +136,11 @@ bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE
     return applies[i];
 }
 
+static mote_view view_of(const mote_summary_row *row)
+{
+    return row->step > 0 ? MOTE_VIEW_IMPACTS : MOTE_VIEW_TABLE;
+}
+
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
     (void)fprintf(out, "%-*s", width, row->label);
@@ -140,7 +148,7 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
         (void)fprintf(out, " %s: %s\n", row->ending, row->reason);
         return;
     }
-    mote_table_values(MOTE_VIEW_TABLE, row, out);
+    mote_table_values(view_of(row), row, out);
     for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
         char note[MOTE_ROW_NOTE];
         if (mote_table_note(row, i, note))
@@ -202,7 +210,7 @@ void mote_table_print(const mote_summary *summary, FILE *out)
         (void)fprintf(out, "%s%s: %s\n", start ? "\n" : "", summary->rows[start].scene,
                       heading);
         free(heading);
-        mote_table_heads(MOTE_VIEW_TABLE, width, out);
+        mote_table_heads(view_of(&summary->rows[start]), width, out);
         for (size_t i = start; i < end; ++i)
             print_row(&summary->rows[i], width, out);
         print_foot(summary, start, end, out);

@@ -107,7 +107,7 @@ static int load(void)
         return -1;
     }
     const mote_engine_setup setup = mote_subject_engine(&subject);
-    frame = mote_subject_frame_create(&subject);
+    frame = mote_subject_frame_create(&subject, 0);
     return mote_engine_create(&setup, &choice, &engine) == MOTE_OK &&
                    mote_engine_build(engine) == MOTE_OK
                ? 0
