@@ -16,7 +16,7 @@ static mote_status impact_create(mote_engine *e)
             MOTE_EUNSUPPORTED,
             "%s does not answer impacts; `mote list methods` says which methods do", name);
     e->now.count = 1;
-    mote_pair_list_make_room(&e->now, 1);
+    mote_engine_pair_list_make_room(&e->now, 1);
     e->now.pairs[0] = (mote_near_pair){.body = {0, 1}};
     return MOTE_OK;
 }

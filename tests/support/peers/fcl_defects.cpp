@@ -2,6 +2,8 @@
 
 #include "baselines/fcl_adapter.hpp"
 
+#include <fcl/math/motion/interp_motion.h>
+
 #include <iostream>
 #include <sstream>
 
@@ -163,4 +165,22 @@ bool mote_fcl_builds_with_nan(void)
     std::vector<Vector> vertices = corners;
     vertices[1][0] = std::numeric_limits<double>::quiet_NaN();
     return build(model, vertices) == fcl::BVH_OK;
+}
+
+double mote_fcl_turn_moves_by(bool has_point)
+{
+    using Motion = fcl::InterpMotion<double>;
+    alignas(Motion) unsigned char memory[sizeof(Motion)];
+    std::fill(memory, memory + sizeof memory, static_cast<unsigned char>(0x45));
+    const Transform start = Transform::Identity();
+    Transform end = start, middle = start;
+    end.linear() = fcl::AngleAxis<double>(1, Vector::UnitY()).toRotationMatrix();
+    Motion *motion = has_point ? new (memory)
+                                     Motion(start.linear(), start.translation(), end.linear(),
+                                            end.translation(), Vector::Zero())
+                               : new (memory) Motion(start, end);
+    motion->integrate(0.5);
+    motion->getCurrentTransform(middle);
+    motion->~Motion();
+    return middle.translation().norm();
 }

@@ -44,6 +44,10 @@ int mote_fcl_replace_after_update(void);
 /* Whether a model with a NaN among its vertices is built without complaint. */
 bool mote_fcl_builds_with_nan(void);
 
+/* How far a body at the origin is from there half way through a linear motion that only turns
+   it, made in memory that is not 0: from two poses, or with a reference point at the origin. */
+double mote_fcl_turn_moves_by(bool has_point);
+
 #ifdef __cplusplus
 }
 #endif

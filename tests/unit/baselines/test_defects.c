@@ -444,3 +444,10 @@ TEST(bullet_gimpact_of_triangles_apart_is_a_contact)
     mote_method_destroy(mote_method_find("bullet-gimpact"), state);
     scene_free(&s);
 }
+
+TEST(fcl_linear_motion_of_two_poses_reads_what_is_not_set)
+{
+    if (mote_fcl_turn_moves_by(false) <= 1)
+        fail_msg(MENDED);
+    assert_true(mote_fcl_turn_moves_by(true) <= 1e-12);
+}

@@ -10,6 +10,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
+#include <jansson.h>
 #include <string.h>
 
 #define TETRAHEDRON "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
