@@ -252,4 +252,4 @@ MOTE_METHOD(fcl_continuous) = {
     destroy,          nullptr,
     no_query,         nullptr};
 
-MOTE_IMPACT(fcl_continuous) = {"fcl-continuous", create, destroy, query};
+MOTE_IMPACT(fcl_continuous) = {"fcl-continuous", true, create, destroy, query};

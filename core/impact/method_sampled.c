@@ -139,5 +139,8 @@ MOTE_METHOD(impact_sampled) = {
     .query = no_query,
 };
 
-MOTE_IMPACT(impact_sampled) = {
-    .method = "impact-sampled", .create = create, .destroy = destroy, .query = query};
+MOTE_IMPACT(impact_sampled) = {.method = "impact-sampled",
+                               .alone = true,
+                               .create = create,
+                               .destroy = destroy,
+                               .query = query};

@@ -30,6 +30,7 @@ typedef struct mote_impact_answer {
 
 typedef struct mote_impact_method {
     const char *method; /* its name */
+    bool alone;         /* it answers this question and no other */
 
     /* Builds the state for a pair of bodies, whose paths will have at most `pieces` pieces. Of
        the setup, ask is MOTE_ASK_IMPACT. MOTE_EUNSUPPORTED with a reason when the method cannot

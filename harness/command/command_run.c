@@ -98,7 +98,8 @@ typedef struct request {
     char *pair;                            /* name of the scenario from these, or NULL */
     double until_share;                    /* from --until-ci; 0: not given */
     mote_choices choices;
-    mote_choices scene_choices; /* for scenarios of more than two bodies */
+    mote_choices scene_choices;  /* for scenarios of more than two bodies */
+    mote_choices impact_choices; /* for those that ask for impacts */
 } request;
 
 static bool read_cache(const char *text, mote_cache *cache)
@@ -287,8 +288,8 @@ static int read_arguments(int argc, char **argv, request *q)
     return MOTE_EXIT_DONE;
 }
 
-/* The configurations requested, the same for all scenarios; by default every method, and for
-   more than two bodies every method in each of its forms. */
+/* The configurations requested, the same for all scenarios; by default every method that
+   answers, and for more than two bodies every method in each of its forms. */
 static mote_status expand_methods(request *q)
 {
     static const char *const scene_ways[] = {
@@ -298,11 +299,18 @@ static mote_status expand_methods(request *q)
     mote_status status = MOTE_OK;
     for (size_t i = 0; status == MOTE_OK && i < q->method_count; ++i)
         status = mote_choices_add(&q->choices, q->methods[i], q->particles);
-    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_method_at(i); ++i)
-        status = mote_choices_add(&q->choices, mote_method_at(i)->name, q->particles);
+    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_method_at(i); ++i) {
+        const char *name = mote_method_at(i)->name;
+        const mote_impact_method *impact = mote_impact_method_find(name);
+        if (impact)
+            status = mote_choices_add(&q->impact_choices, name, q->particles);
+        if (status == MOTE_OK && !(impact && impact->alone))
+            status = mote_choices_add(&q->choices, name, q->particles);
+    }
     for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && i < ways; ++i)
         status = mote_choices_add(&q->scene_choices, scene_ways[i], q->particles);
     q->run.scene_choices = q->method_count == 0 ? &q->scene_choices : NULL;
+    q->run.plan.impact_choices = q->method_count == 0 ? &q->impact_choices : NULL;
     return status;
 }
 
@@ -379,6 +387,7 @@ int mote_command_run(int argc, char **argv)
         code = execute(&q);
     mote_choices_free(&q.choices);
     mote_choices_free(&q.scene_choices);
+    mote_choices_free(&q.impact_choices);
     free(q.scenarios);
     free(q.methods);
     free(q.pair);

@@ -141,6 +141,18 @@ static mote_status check_frames(const mote_plan_options *options, const mote_sub
     return MOTE_OK;
 }
 
+/* The configurations that a subject is asked of. */
+static const mote_choices *choices_for(const mote_plan_options *options,
+                                       const mote_subject *subject, const mote_choices *choices,
+                                       const mote_choices *scene_choices)
+{
+    if (subject->bodies)
+        return scene_choices;
+    return options->impact_choices && mote_subject_asks_impacts(subject)
+               ? options->impact_choices
+               : choices;
+}
+
 /* How many times a subject is asked: once with each step. */
 static uint32_t step_count(const mote_plan_options *options, const mote_subject *subject)
 {
@@ -194,7 +206,7 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
         if (status != MOTE_OK)
             return status;
         count += (size_t)options->replicates * step_count(options, &subjects[s]) *
-                 (subjects[s].bodies ? scene_choices->count : choices->count);
+                 choices_for(options, &subjects[s], choices, scene_choices)->count;
     }
     if (count > MOTE_CHOICES_MAX)
         return mote_fail(MOTE_EINVAL,
@@ -205,7 +217,7 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
         for (size_t s = 0; s < subject_count; ++s) {
             for (uint32_t k = 0; k < step_count(options, &subjects[s]); ++k)
                 add_group(options, &subjects[s], step_of(options, &subjects[s], k), replicate,
-                          subjects[s].bodies ? scene_choices : choices, &made);
+                          choices_for(options, &subjects[s], choices, scene_choices), &made);
         }
     }
     *plan = made;

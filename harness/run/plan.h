@@ -30,9 +30,11 @@ typedef struct mote_plan_options {
     uint32_t replicates;  /* 1 .. MOTE_REPLICATES_MAX */
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
-    uint32_t steps[MOTE_STEPS_MAX]; /* [step_count], ascending: scenarios of two bodies are
-                                       asked for impacts, once with each step */
-    uint32_t step_count;            /* 0: what the scenarios ask, with their own step */
+    uint32_t steps[MOTE_STEPS_MAX];     /* [step_count], ascending: scenarios of two bodies are
+                                           asked for impacts, once with each step */
+    const mote_choices *impact_choices; /* for scenarios that ask for impacts; NULL: those of
+                                           all of two bodies */
+    uint32_t step_count;                /* 0: what the scenarios ask, with their own step */
     uint64_t seed;
     bool fixed_seed; /* all replicates have the same seed, so they differ only through the
                         machine */
