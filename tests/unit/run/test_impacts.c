@@ -20,25 +20,31 @@
 #define PLACE(frame, place) "{\"frame\": " #frame ", \"position\": [" place "]}"
 #define TURN(frame, degrees)                                                                   \
     "{\"frame\": " #frame ", \"axis\": [1, 2, 3], \"degrees\": " #degrees "}"
-#define BODIES                                                                                                                                                    \
-    "\"bodies\": [{\"file\": \"t.obj\", \"motion\": [" TURN(1, 0) ", " TURN(12, 150) "]}, "                                                                       \
-                                                                                     "{\"file"                                                                    \
-                                                                                     "\": "                                                                       \
-                                                                                     "\"t."                                                                       \
-                                                                                     "obj\"%"                                                                     \
-                                                                                     "s, "                                                                        \
-                                                                                     "\"motio"                                                                    \
-                                                                                     "n\": "                                                                      \
-                                                                                     "[" PLACE(1, "-6, 0, 0") ", " PLACE(4, "-2.1, 0.1, 0") ", " PLACE(           \
-                                                                                         5,                                                                       \
-                                                                                         "2."                                                                     \
-                                                                                         "1, "                                                                    \
-                                                                                         "0, "                                                                    \
-                                                                                         "0."                                                                     \
-                                                                                         "1") ", " PLACE(9,                                                       \
-                                                                                                         "2.2, 0, 0.2") ", " PLACE(10,                            \
-                                                                                                                                   "-2.1, 0, 0.1") ", " PLACE(12, \
-                                                                                                                                                              "-5, 0.2, 0") "]}]"
+#define BODIES                                                                                 \
+    "\"bodies\": [{\"file\": \"t.obj\", \"motion\": [" TURN(1, 0) ", " TURN(                   \
+        12,                                                                                    \
+        150) "]}, "                                                                            \
+             "{\"file"                                                                         \
+             "\": "                                                                            \
+             "\"t."                                                                            \
+             "obj\"%"                                                                          \
+             "s, "                                                                             \
+             "\"motio"                                                                         \
+             "n\": "                                                                           \
+             "[" PLACE(1, "-6, 0, 0") ", " PLACE(4, "-2.1, 0.1, 0") ", " PLACE(                \
+                 5,                                                                            \
+                 "2."                                                                          \
+                 "1, "                                                                         \
+                 "0, "                                                                         \
+                 "0."                                                                          \
+                 "1") ", " PLACE(9,                                                            \
+                                 "2.2, 0, 0.2") ", " PLACE(10,                                 \
+                                                           "-2.1, 0, 0.1") ", " PLACE(12,      \
+                                                                                      "-5, "   \
+                                                                                      "0.2, "  \
+                                                                                      "0") "]" \
+                                                                                           "}" \
+                                                                                           "]"
 
 #define DEFORMING                                                                              \
     ", \"field\": {\"count\": 3, \"support\": 1, \"displacement\": {\"random\": {\"seed\": "   \
