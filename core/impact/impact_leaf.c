@@ -44,6 +44,25 @@ static double apart_along(const mote_moving_triangle *a, const mote_moving_trian
     return until;
 }
 
+/* Whether all of b stays farther than that from all of a along n, up to the part: the gap, less
+   its bend, is concave, and least at one of both ends. */
+static bool stays_apart(const mote_moving_triangle *a, const mote_moving_triangle *b,
+                        mote_vec3 n, const mote_leaf_question *question, double part)
+{
+    double near[2] = {-HUGE_VAL, -HUGE_VAL}, far[2] = {HUGE_VAL, HUGE_VAL};
+    for (int i = 0; i < 3; ++i) {
+        const double pa = mote_dot(n, a->p[i]), pb = mote_dot(n, b->p[i]);
+        const double ea = pa + part * mote_dot(n, a->d[i]);
+        const double eb = pb + part * mote_dot(n, b->d[i]);
+        near[0] = pa > near[0] ? pa : near[0];
+        near[1] = ea > near[1] ? ea : near[1];
+        far[0] = pb < far[0] ? pb : far[0];
+        far[1] = eb < far[1] ? eb : far[1];
+    }
+    return far[0] - near[0] > question->tolerance &&
+           far[1] - near[1] > question->tolerance + question->bend * part * part;
+}
+
 static void place(const mote_moving_triangle *t, double s, mote_vec3 at[3])
 {
     for (int k = 0; k < 3; ++k)
@@ -62,8 +81,10 @@ static double closing(const mote_moving_triangle *a, const mote_moving_triangle 
 }
 
 double mote_moving_triangles(const mote_moving_triangle *a, const mote_moving_triangle *b,
-                             const mote_leaf_question *q, double part, uint64_t *tests)
+                             mote_leaf_question *q, double part, uint64_t *tests)
 {
+    if (stays_apart(a, b, q->apart, q, part))
+        return part;
     const double speed = closing(a, b);
     double s = 0;
     for (int step = 0; step < STEPS_MOST; ++step) {
@@ -82,8 +103,10 @@ double mote_moving_triangles(const mote_moving_triangle *a, const mote_moving_tr
             return s;
         const mote_vec3 n = mote_scale(mote_sub(w[1], w[0]), 1 / sqrt(squared));
         const double until = apart_along(a, b, n, q) * (1 - 1e-12);
-        if (until >= part)
+        if (until >= part) {
+            q->apart = n;
             return part;
+        }
         if (until - s < GAIN_LEAST * (part - s))
             return fmax(s, until);
         s = until;
@@ -238,7 +261,7 @@ static bool apart_by_places(const mote_moving_leaf *first, const mote_moving_lea
 }
 
 double mote_moving_leaves(const mote_moving_leaf *first, const mote_moving_leaf *second,
-                          const mote_leaf_question *q, double part, uint64_t *tests)
+                          mote_leaf_question *q, double part, uint64_t *tests)
 {
     /* lengths of directions are rounded by less than the noise in the tolerance */
     const double need = q->tolerance + q->bend * part * part;

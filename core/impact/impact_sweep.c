@@ -199,10 +199,9 @@ static const mote_moving_leaf *leaf_of(mote_sweep *w, int s, const part *p)
 
 static void decide_leaves(mote_sweep *w, const part pair[2])
 {
-    const mote_leaf_question question = {.tolerance = w->tolerance, .bend = w->bend};
     ++w->leaf_pairs;
     const mote_moving_leaf *first = leaf_of(w, 0, &pair[0]);
-    w->part = mote_moving_leaves(first, leaf_of(w, 1, &pair[1]), &question, w->part,
+    w->part = mote_moving_leaves(first, leaf_of(w, 1, &pair[1]), &w->question, w->part,
                                  &w->triangle_tests);
 }
 
@@ -237,10 +236,11 @@ static void visit(mote_sweep *w, const part pair[2], uint32_t depth)
     load(other->motion, other->lane, 1, &box);
     const double scale = w->certificate->scale;
     const float f = (float)w->part * (1 + 0x1p-22F);
-    const float need[2] = {(float)(w->tolerance * scale) * (1 + 0x1p-20F) + w->spare,
-                           (float)((w->tolerance + w->bend * w->part * w->part) * scale) *
-                                   (1 + 0x1p-20F) +
-                               w->spare};
+    const float need[2] = {
+        (float)(w->question.tolerance * scale) * (1 + 0x1p-20F) + w->spare,
+        (float)((w->question.tolerance + w->question.bend * w->part * w->part) * scale) *
+                (1 + 0x1p-20F) +
+            w->spare};
     /* from the box to the node's */
     const float sign = s == 1 ? 1 : -1;
     const float facing[3] = {sign * w->facing[0], sign * w->facing[1], sign * w->facing[2]};
@@ -266,8 +266,7 @@ static void decide_best(mote_sweep *w)
             t[s].d[k] = mote_lazy_position(&w->side[s].moved, v);
         }
     }
-    const mote_leaf_question question = {.tolerance = w->tolerance, .bend = w->bend};
-    w->part = mote_moving_triangles(&t[0], &t[1], &question, w->part, &w->triangle_tests);
+    w->part = mote_moving_triangles(&t[0], &t[1], &w->question, w->part, &w->triangle_tests);
 }
 
 double mote_sweep_query(mote_sweep *w, double tolerance, double bend)
@@ -275,8 +274,6 @@ double mote_sweep_query(mote_sweep *w, double tolerance, double bend)
     mote_certificate *c = w->certificate;
     ++w->stamp;
     w->part = 1;
-    w->tolerance = tolerance;
-    w->bend = bend;
     w->failed = false;
     w->box_tests = w->triangle_tests = w->leaf_pairs = 0;
     double bound = 0;
@@ -292,6 +289,8 @@ double mote_sweep_query(mote_sweep *w, double tolerance, double bend)
     if (!(length > 0))
         return 0;
     w->direction = mote_scale(n, 1 / length);
+    w->question =
+        (mote_leaf_question){.tolerance = tolerance, .bend = bend, .apart = w->direction};
     w->facing[0] = (float)w->direction.x;
     w->facing[1] = (float)w->direction.y;
     w->facing[2] = (float)w->direction.z;

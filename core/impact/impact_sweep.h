@@ -39,13 +39,13 @@ typedef struct mote_sweep {
     mote_certificate *certificate;
     mote_sweep_side side[2];
     uint64_t stamp;
-    double part;         /* s: proven so far, unless what is left says less */
-    double tolerance;    /* to be kept, margins included, absolute */
-    double bend;         /* a h^2 / 2 */
-    mote_vec3 direction; /* of length 1, between the nearest points */
-    float facing[3];     /* the same */
-    float spare;         /* of a test of boxes: its rounding, in the trees' units */
-    bool failed;         /* there was no room */
+    double part;                 /* s: proven so far, unless what is left says less */
+    mote_leaf_question question; /* the tolerance to be kept, margins included, absolute; the
+                                    bend is a h^2 / 2 */
+    mote_vec3 direction;         /* of length 1, between the nearest points */
+    float facing[3];             /* the same */
+    float spare;                 /* of a test of boxes: its rounding, in the trees' units */
+    bool failed;                 /* there was no room */
     uint64_t box_tests, triangle_tests, leaf_pairs;
 } mote_sweep;
 
