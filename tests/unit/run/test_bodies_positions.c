@@ -67,7 +67,7 @@ TEST(positions_of_bodies_follow_sequence_and_pose)
         mote_subject subject = load(text);
         free(text);
         const mote_bodies *b = subject.bodies;
-        mote_subject_frame frame = mote_subject_frame_create(&subject);
+        mote_subject_frame frame = mote_subject_frame_create(&subject, 0);
         fingerprint[k] = subject.fingerprint;
         for (uint32_t f = FRAMES; f >= 1; --f) { /* any order */
             assert_int_equal(mote_subject_frame_set(&subject, f, 0, &frame), MOTE_OK);
@@ -161,7 +161,7 @@ static void check_frame(const mote_subject *subject, const mote_body_state *stat
 static void check_scene(const char *bodies)
 {
     mote_subject subject = load(bodies);
-    mote_subject_frame frame = mote_subject_frame_create(&subject);
+    mote_subject_frame frame = mote_subject_frame_create(&subject, 0);
     mote_engine *engines[EXACT] = {0}, *particles = NULL;
     int near = 0, contacts = 0;
     for (size_t m = 0; m < EXACT; ++m) {
@@ -226,7 +226,7 @@ TEST(what_needs_fields_says_so)
 TEST(a_position_that_is_not_finite_names_the_body)
 {
     mote_subject subject = load(MOVING SHEETS LETTERS);
-    mote_subject_frame frame = mote_subject_frame_create(&subject);
+    mote_subject_frame frame = mote_subject_frame_create(&subject, 0);
     assert_int_equal(mote_subject_frame_set(&subject, 3, 0, &frame), MOTE_OK);
     frame.scene.states[3].vertices = NULL;
     mote_vec3 spoilt[SHEET_VERTICES] = {{0, 0, 0}};
