@@ -39,10 +39,10 @@ typedef struct mote_parts {
 
    positions are [vertex_count] and finite; NULL means the mesh's rest positions. Each part has
    at least one vertex. Deterministic, but for a mesh on which HACD crashes or needs about the
-   time that it has: whether a crash comes depends on the heap. Cost: HACD's, about half a second
-   as a rule, MOTE_PARTS_SECONDS at most (of the clock, ten times that on a machine that is
-   busy), and O(v log v). MOTE_EINVAL: a position that is not finite. MOTE_ENOMEM: no memory, or
-   no process. The caller destroys *parts. */
+   time that it has: whether a crash comes depends on the heap. Cost: HACD's, about half a
+   second as a rule, MOTE_PARTS_SECONDS at most (of the clock, ten times that on a machine that
+   is busy), and O(v log v). MOTE_EINVAL: a position that is not finite. MOTE_ENOMEM: no memory,
+   or no process. The caller destroys *parts. */
 mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 *positions,
                               mote_parts **parts);
 

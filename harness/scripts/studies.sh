@@ -190,7 +190,7 @@ keep() {
 {
   "study": "$name",
   "commit": "$commit",
-  "ended": "$(date -u +%Y-%m-%dT%H:%M:%SZ)",
+  "ended": "$(date -u +%Y-%m-%dT%H:%M:%S.%3NZ)",
   "machine": "$(processor), $(nproc) cores, $(uname -sr)",
   "place": "$place",
   "load_before": $(sort -g "$work/$name"/part-*/.load | tail -1),

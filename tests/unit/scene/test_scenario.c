@@ -275,7 +275,7 @@ static const bad_case bad_cases[] = {
     {"\"frames\": 40", "\"frames\": 40, \"frames\": 41", ":3:", "uplicate"},
     {"\"active\": [10, 40]", "\"active\": [10, 41]", ":5: active[1]: ", "1 to 40"},
     {"\"active\": [10, 40]", "\"active\": [40, 10]", ":5: active: ", "empty"},
-    {"\"distance\"", "\"speed\"", ":6: ask: ", "neither distance nor contact"},
+    {"\"distance\"", "\"speed\"", ":6: ask: ", "neither distance, contact nor impact"},
     {"0.01,", "-1,", ":7: tolerance: ", "out of range"},
     {"0.01,", "1e999,", ":7:", "overflow"},
     {"0.01,", "NaN,", ":7:", "token"},
