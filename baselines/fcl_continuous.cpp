@@ -18,6 +18,8 @@
 #include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
+#include <optional>
+
 namespace
 {
 
@@ -113,10 +115,17 @@ class Continuous
     void query(const mote_path *const path[2], mote_impact_answer *answer);
 
   private:
-    using Motion = std::unique_ptr<fcl::MotionBase<double>>;
+    /* A motion of one of three kinds, held in place: FCL deletes what Eigen allocated by the
+       flags of its own build, which need not be those of this one. */
+    struct Motion {
+        std::optional<fcl::InterpMotion<double>> linear;
+        std::optional<fcl::ScrewMotion<double>> screw;
+        std::optional<fcl::TranslationMotion<double>> translation;
+    };
 
     Transform place(const mote_path *path, int b, double time) const;
-    Motion move(const mote_path *path, const Transform &from, const Transform &to) const;
+    const fcl::MotionBase<double> *move(const mote_path *path, const Transform &from,
+                                        const Transform &to, Motion *motion) const;
 
     std::unique_ptr<Models> models;
     mote_body body[2];
@@ -132,16 +141,15 @@ Transform Continuous::place(const mote_path *path, int b, double time) const
     return mote_fcl::to_fcl(state.pose, scale);
 }
 
-Continuous::Motion Continuous::move(const mote_path *path, const Transform &from,
-                                    const Transform &to) const
+const fcl::MotionBase<double> *Continuous::move(const mote_path *path, const Transform &from,
+                                                const Transform &to, Motion *motion) const
 {
     if (request.ccd_motion_type == fcl::CCDM_LINEAR)
-        return std::make_unique<fcl::InterpMotion<double>>(
-            from.linear(), from.translation(), to.linear(), to.translation(),
-            mote_fcl::to_fcl(path->pivot, scale));
+        return &motion->linear.emplace(from.linear(), from.translation(), to.linear(),
+                                       to.translation(), mote_fcl::to_fcl(path->pivot, scale));
     if (request.ccd_motion_type == fcl::CCDM_SCREW)
-        return std::make_unique<fcl::ScrewMotion<double>>(from, to);
-    return std::make_unique<fcl::TranslationMotion<double>>(from, to);
+        return &motion->screw.emplace(from, to);
+    return &motion->translation.emplace(from, to);
 }
 
 /* A time of contact outside of 0 .. 1, or none, is no answer. */
@@ -153,10 +161,10 @@ void Continuous::query(const mote_path *const path[2], mote_impact_answer *answe
         const double end = static_cast<double>(k + 1) / total;
         const Transform to[2] = {place(path[0], 0, end), place(path[1], 1, end)};
         fcl::ContinuousCollisionResult<double> result;
-        const Motion first = move(path[0], from[0], to[0]);
-        const Motion second = move(path[1], from[1], to[1]);
+        Motion motion[2];
         const double time = fcl::continuousCollide(
-            models->model(0), first.get(), models->model(1), second.get(), request, result);
+            models->model(0), move(path[0], from[0], to[0], &motion[0]), models->model(1),
+            move(path[1], from[1], to[1], &motion[1]), request, result);
         ++answer->iterations;
         if (!(time >= 0 && time <= 1))
             return;
