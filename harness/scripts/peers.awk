@@ -57,7 +57,7 @@ function best(scenario, method, s,    row, found) {
 function table(scenario,    row, next_row, s, i, line, order, kept) {
     if (!rows[scenario]) return
     printf "\n### `%s`\n\n%d frames, %d process%s a row.\n\n", scenario, frames[scenario], replicates[scenario],
-        replicates[scenario] > 1 ? "es" : ""
+        (replicates[scenario] > 1 ? "es" : "")
     print "| | median | mean | p95 | worst | wrong |"
     print "| --- | ---: | ---: | ---: | ---: | ---: |"
     for (row = 1; row <= rows[scenario]; ++row)
