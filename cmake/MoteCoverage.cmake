@@ -7,5 +7,7 @@ endforeach()
 target_link_options(mote_core PUBLIC --coverage)
 
 # Children end by _exit, run another program, or may not write.
+target_sources(mote_core PRIVATE cmake/coverage_exit.c)
+target_link_options(mote_core PUBLIC -Wl,--wrap=_exit)
 target_sources(mote_harness PRIVATE cmake/coverage.c)
-target_link_options(mote_harness PUBLIC -Wl,--wrap=_exit -Wl,--wrap=execvp -Wl,--wrap=mote_confine)
+target_link_options(mote_harness PUBLIC -Wl,--wrap=execvp -Wl,--wrap=mote_confine)
