@@ -163,8 +163,9 @@ ratios: build $(if $(filter yes,$(AVX2)),build-avx2)
 
 .PHONY: build-avx2
 build-avx2: deps
-	@cmake -S . -B build-avx2 -DCMAKE_BUILD_TYPE=Release -DMOTE_FORCE_ISA=x86-64-v3 > build-avx2.log || \
-	    { cat build-avx2.log; exit 1; }
+	@mkdir -p build-avx2
+	@cmake -S . -B build-avx2 -DCMAKE_BUILD_TYPE=Release -DMOTE_FORCE_ISA=x86-64-v3 \
+	    > build-avx2/configure.log || { cat build-avx2/configure.log; exit 1; }
 	@$(call compile,build-avx2,mote)
 
 # With METHOD, only the frames, by these methods, also of the shared libraries in PLUGIN.
@@ -416,7 +417,7 @@ valgrind: program-metamorphic deps-valgrind
 	@$(VALGRIND) $(BUILD)/tests/metamorphic --queries 200 > /dev/null
 
 clean:
-	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz build-perf-ab
+	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz build-perf-ab build-avx2
 
 .PHONY: test-library test-stranger test-cluster test-exports install
 

@@ -60,6 +60,27 @@ inline Vector to_fcl(mote_vec3 v, double scale)
     return Vector(v.x * scale, v.y * scale, v.z * scale);
 }
 
+/* Builds a new model of a mesh as it is at rest; its splitter is set before. FCL's code. */
+template <class BV>
+int build_model(const mote_mesh *mesh, double scale, fcl::BVHModel<BV> &model)
+{
+    std::vector<Vector> vertices(mesh->vertex_count);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
+        vertices[i] = to_fcl(mesh->positions[i], scale);
+    std::vector<fcl::Triangle> triangles(mesh->triangle_count);
+    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+        const uint32_t *t = mesh->triangles[i];
+        triangles[i].set(t[0], t[1], t[2]);
+    }
+    int code = model.beginModel(static_cast<int>(mesh->triangle_count),
+                                static_cast<int>(mesh->vertex_count));
+    if (code == fcl::BVH_OK)
+        code = model.addSubModel(vertices, triangles);
+    if (code == fcl::BVH_OK)
+        code = model.endModel();
+    return code;
+}
+
 inline Transform to_fcl(const mote_pose &pose, double scale)
 {
     Transform transform = Transform::Identity();
@@ -204,23 +225,9 @@ template <class Volume> class Pair
 template <class Volume> mote_status Pair<Volume>::build(const mote_setup *setup)
 {
     for (int b = 0; b < 2; ++b) {
-        const mote_mesh *mesh = setup->body[b]->mesh;
-        std::vector<Vector> vertices(mesh->vertex_count);
-        for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-            vertices[i] = to_fcl(mesh->positions[i], scale);
-        std::vector<fcl::Triangle> triangles(mesh->triangle_count);
-        for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
-            const uint32_t *t = mesh->triangles[i];
-            triangles[i].set(t[0], t[1], t[2]);
-        }
         if (options.samples)
             model[b].bv_splitter = std::make_shared<SampleSplitter<BV>>(*setup->body[b]);
-        int code = model[b].beginModel(static_cast<int>(mesh->triangle_count),
-                                       static_cast<int>(mesh->vertex_count));
-        if (code == fcl::BVH_OK)
-            code = model[b].addSubModel(vertices, triangles);
-        if (code == fcl::BVH_OK)
-            code = model[b].endModel();
+        const int code = build_model(setup->body[b]->mesh, scale, model[b]);
         if (code != fcl::BVH_OK)
             return mote_fail(MOTE_ENUMERIC, "FCL could not build body %d: code %d", b, code);
     }

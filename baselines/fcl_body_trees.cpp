@@ -32,21 +32,7 @@ struct FclBodies {
 
 mote_status build(const FclBodies &s, uint32_t shape, Model &model)
 {
-    const mote_mesh *mesh = s.setup.shapes[shape]->mesh;
-    std::vector<mote_fcl::Vector> vertices(mesh->vertex_count);
-    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        vertices[i] = mote_fcl::to_fcl(mesh->positions[i], s.scale);
-    std::vector<fcl::Triangle> triangles(mesh->triangle_count);
-    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
-        const uint32_t *t = mesh->triangles[i];
-        triangles[i].set(t[0], t[1], t[2]);
-    }
-    int code = model.beginModel(static_cast<int>(mesh->triangle_count),
-                                static_cast<int>(mesh->vertex_count));
-    if (code == fcl::BVH_OK)
-        code = model.addSubModel(vertices, triangles);
-    if (code == fcl::BVH_OK)
-        code = model.endModel();
+    const int code = mote_fcl::build_model(s.setup.shapes[shape]->mesh, s.scale, model);
     if (code != fcl::BVH_OK)
         return mote_fail(MOTE_ENUMERIC, "FCL could not build shape %u: code %d", shape, code);
     return MOTE_OK;

@@ -19,6 +19,7 @@
 #include <fcl/narrowphase/continuous_collision.h>
 
 #include <optional>
+#include <stdexcept>
 
 namespace
 {
@@ -56,19 +57,8 @@ template <class BV> class ModelsOf final : public Models
   public:
     void add(int b, const mote_body *body, double scale) override
     {
-        const mote_mesh *mesh = body->mesh;
-        std::vector<Vector> vertices(mesh->vertex_count);
-        for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-            vertices[i] = mote_fcl::to_fcl(mesh->positions[i], scale);
-        std::vector<fcl::Triangle> triangles(mesh->triangle_count);
-        for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
-            const uint32_t *t = mesh->triangles[i];
-            triangles[i].set(t[0], t[1], t[2]);
-        }
-        models[b].beginModel(static_cast<int>(mesh->triangle_count),
-                             static_cast<int>(mesh->vertex_count));
-        models[b].addSubModel(vertices, triangles);
-        models[b].endModel();
+        if (mote_fcl::build_model(body->mesh, scale, models[b]) != fcl::BVH_OK)
+            throw std::runtime_error("a model could not be built");
         models[b].computeLocalAABB();
     }
 

@@ -55,10 +55,9 @@ static void select_least(mote_cert_item *items, size_t count, size_t k)
     }
 }
 
-/* The main axis of the centres of a range of triangles in one pose, and their variance along
-   it, times their number. */
+/* The main axis of the centres of a range of triangles in one pose. */
 static mote_vec3 main_axis(const mote_cert_item *items, uint32_t count,
-                           const float (*centres)[3], double *variance)
+                           const float (*centres)[3])
 {
     double mean[3] = {0};
     double m[6] = {0};
@@ -88,7 +87,6 @@ static mote_vec3 main_axis(const mote_cert_item *items, uint32_t count,
     a[2][2] = m[5] - mean[2] * mean[2] * n;
     mote_vec3 axes[3];
     mote_cert_principal_axes(a, axes);
-    *variance = fmax(a[0][0], fmax(a[1][1], a[2][2])); /* diagonal by now */
     return axes[0];
 }
 
@@ -263,12 +261,10 @@ static uint32_t find_ways(const mote_cert_poses *poses, const mote_cert_item *it
     choose(items, count, COARSE, &p);
     choose_places(count, most, true, &p);
     for (uint32_t pose = 0; pose < poses->count; ++pose) {
-        double variance;
-        const mote_vec3 axes[4] = {
-            main_axis(p.items, p.count, centres_of(poses, pose), &variance),
-            {1, 0, 0},
-            {0, 1, 0},
-            {0, 0, 1}};
+        const mote_vec3 axes[4] = {main_axis(p.items, p.count, centres_of(poses, pose)),
+                                   {1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, 1}};
         for (int k = 0; k < 4; ++k) {
             way w = {.axis = axes[k], .pose = pose};
             if (place_best(poses, &p, &w))
@@ -300,8 +296,7 @@ uint32_t mote_cert_split(const mote_cert_poses *poses, mote_cert_item *items, ui
 {
     if (poses->count > 1)
         return split_posed(poses, items, count, most);
-    double variance;
-    const mote_vec3 axis = main_axis(items, count, centres_of(poses, 0), &variance);
+    const mote_vec3 axis = main_axis(items, count, centres_of(poses, 0));
     halve_along(centres_of(poses, 0), axis, items, count, count / 2);
     return count / 2;
 }
