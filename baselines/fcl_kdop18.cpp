@@ -15,14 +15,8 @@ struct KdopVolume {
     [[maybe_unused]] static constexpr unsigned first_triangle_tests = 0;
 };
 
-constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-bottom-up"),
-                                         mote_fcl::queue_parameter,
-                                         mote_fcl::seed_parameter,
-                                         mote_fcl::call_parameter,
-                                         mote_fcl::positions_parameter,
-                                         mote_fcl::build_parameter};
-
 } // namespace
 
 MOTE_METHOD(fcl_kdop18) = mote_fcl::describe<KdopVolume>(
-    "fcl-kdop18", "FCL 0.7: 18-sided polytopes, refit bottom-up; contact only", parameters);
+    "fcl-kdop18", "FCL 0.7: 18-sided polytopes, refit bottom-up; contact only",
+    mote_fcl::bottom_up_parameters);

@@ -15,14 +15,8 @@ struct KiosVolume {
     static constexpr unsigned first_triangle_tests = 1;
 };
 
-constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
-                                         mote_fcl::queue_parameter,
-                                         mote_fcl::seed_parameter,
-                                         mote_fcl::call_parameter,
-                                         mote_fcl::positions_parameter,
-                                         mote_fcl::build_parameter};
-
 } // namespace
 
 MOTE_METHOD(fcl_kios) = mote_fcl::describe<KiosVolume>(
-    "fcl-kios", "FCL 0.7: intersections of spheres, refit top-down", parameters);
+    "fcl-kios", "FCL 0.7: intersections of spheres, refit top-down",
+    mote_fcl::top_down_parameters);

@@ -113,15 +113,8 @@ struct ObbVolume {
     static constexpr unsigned first_triangle_tests = 0;
 };
 
-constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
-                                         mote_fcl::queue_parameter,
-                                         mote_fcl::seed_parameter,
-                                         mote_fcl::call_parameter,
-                                         mote_fcl::positions_parameter,
-                                         mote_fcl::build_parameter};
-
 } // namespace
 
 MOTE_METHOD(fcl_obb) = mote_fcl::describe<ObbVolume>(
     "fcl-obb", "FCL 0.7: oriented boxes, refit top-down; its distance traversal is ours",
-    parameters);
+    mote_fcl::top_down_parameters);

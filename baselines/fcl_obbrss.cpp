@@ -15,15 +15,8 @@ struct ObbRssVolume {
     static constexpr unsigned first_triangle_tests = 1;
 };
 
-constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
-                                         mote_fcl::queue_parameter,
-                                         mote_fcl::seed_parameter,
-                                         mote_fcl::call_parameter,
-                                         mote_fcl::positions_parameter,
-                                         mote_fcl::build_parameter};
-
 } // namespace
 
 MOTE_METHOD(fcl_obbrss) = mote_fcl::describe<ObbRssVolume>(
     "fcl-obbrss", "FCL 0.7: oriented boxes and rectangle swept spheres, refit top-down",
-    parameters);
+    mote_fcl::top_down_parameters);

@@ -8,7 +8,7 @@
 namespace mote_fcl
 {
 
-/* In the order of the table below. */
+/* In the order of the tables at the end. */
 enum ParameterIndex { UPDATE, QUEUE, SEED, CALL, POSITIONS, BUILD, PARAMETER_COUNT };
 
 enum UpdateMode { REFIT_BOTTOM_UP, REFIT_TOP_DOWN, REBUILD, NO_UPDATE };
@@ -40,8 +40,6 @@ constexpr mote_parameter choice(const char *key, const char *choices, const char
     return mote_parameter{key, MOTE_PARAMETER_CHOICE, 0, 0, choices, fallback, help};
 }
 
-/* A method's table: `static const mote_parameter table[] = {update_parameter("rebuild"),
-   MOTE_FCL_MORE_PARAMETERS}`. */
 constexpr mote_parameter update_parameter(const char *fallback)
 {
     return choice("update", "refit-bottom-up|refit-top-down|rebuild|none", fallback,
@@ -60,6 +58,22 @@ constexpr mote_parameter positions_parameter =
            "deform: pay for deforming all vertices; given: they come free of charge");
 constexpr mote_parameter build_parameter =
     choice("build", MOTE_BUILD_CHOICES, "rest", MOTE_BUILD_HELP);
+
+/* By how a tree is refitted where nothing else is asked. */
+inline constexpr mote_parameter bottom_up_parameters[PARAMETER_COUNT] = {
+    update_parameter("refit-bottom-up"),
+    queue_parameter,
+    seed_parameter,
+    call_parameter,
+    positions_parameter,
+    build_parameter};
+inline constexpr mote_parameter top_down_parameters[PARAMETER_COUNT] = {
+    update_parameter("refit-top-down"),
+    queue_parameter,
+    seed_parameter,
+    call_parameter,
+    positions_parameter,
+    build_parameter};
 
 } // namespace mote_fcl
 

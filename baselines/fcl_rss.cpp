@@ -15,14 +15,8 @@ struct RssVolume {
     static constexpr unsigned first_triangle_tests = 1;
 };
 
-constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
-                                         mote_fcl::queue_parameter,
-                                         mote_fcl::seed_parameter,
-                                         mote_fcl::call_parameter,
-                                         mote_fcl::positions_parameter,
-                                         mote_fcl::build_parameter};
-
 } // namespace
 
-MOTE_METHOD(fcl_rss) = mote_fcl::describe<RssVolume>(
-    "fcl-rss", "FCL 0.7: rectangle swept spheres, refit top-down", parameters);
+MOTE_METHOD(fcl_rss) =
+    mote_fcl::describe<RssVolume>("fcl-rss", "FCL 0.7: rectangle swept spheres, refit top-down",
+                                  mote_fcl::top_down_parameters);
