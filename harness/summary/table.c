@@ -97,10 +97,11 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
     char shown[MOTE_NUMBER_TEXT];
     mote_text text = {0};
     describe_bodies(row, &text);
-    mote_text_add(&text, row->step > 0 ? ", %s questions about impacts" : ", %s frames",
-                  mote_show_whole((double)frames, shown));
+    mote_text_add(&text, row->step > 0 ? ", %s question%s" : ", %s frame%s",
+                  mote_show_whole((double)frames, shown), frames == 1 ? "" : "s");
     if (row->step > 0)
-        mote_text_add(&text, " in %s frames", mote_show_whole(row->step, shown));
+        mote_text_add(&text, " about impacts in steps of %s frame%s",
+                      mote_show_whole(row->step, shown), row->step == 1 ? "" : "s");
     mote_text_add(&text, ", %zu replicate%s, caches %s", replicates, replicates == 1 ? "" : "s",
                   row->cache);
     if (mote_summary_machines_differ(summary))

@@ -194,7 +194,7 @@ TEST(run_of_impacts_counts_what_each_method_misses)
         assert_true(number(rows, "impact-sampled:samples=1", steps[k], "missed") == impacts[k]);
     }
     json_decref(summary);
-    expect("summarize r", 0, "questions about impacts in 11 frames");
+    expect("summarize r", 0, "1 question about impacts in steps of 11 frames");
     expect("summarize r --format csv", 0, "impact_iterations_p95");
     expect("summarize r", 0, "stream does not answer impacts");
     free(run("report r", 0));
