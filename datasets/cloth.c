@@ -1,4 +1,6 @@
-/* A square cloth that falls over a letter and onto the floor around it.
+/* Square cloths: one that falls over a letter and onto the floor around it, where it comes to
+   rest at its thickness from the letter everywhere, and a banner that is held along one edge
+   and blown over the letter, which it touches with a few folds only.
 
    Position-based dynamics (Mueller et al., 2007) on a grid: distances along the edges, across
    the squares, and, weakly, to the next but one vertex, which resists bending. The cloth
@@ -17,19 +19,25 @@
 
 #define GRID 77 /* 11,858 triangles */
 #define EDGE 1.1
-#define HEIGHT 0.3    /* of the middle at frame 1 */
-#define GRAVITY 3e-4  /* L a frame, a frame */
-#define SUBSTEPS 8    /* a frame */
-#define ITERATIONS 3  /* a substep */
-#define KEPT 0.999    /* of the velocity, a substep */
-#define BENDING 0.02  /* of a correction; 1 elsewhere */
-#define SHEARING 0.5  /* likewise */
-#define MARGIN 0.0068 /* between the cloth and the letter's surface */
-#define FRICTION 0.4  /* of the way along the surface, a substep */
-#define FLOOR (-0.25) /* height */
+#define HEIGHT 0.3     /* of the middle at frame 1 */
+#define GRAVITY 3e-4   /* L a frame, a frame */
+#define SUBSTEPS 8     /* a frame */
+#define ITERATIONS 3   /* a substep */
+#define KEPT 0.999     /* of the velocity, a substep */
+#define BENDING 0.02   /* of a correction; 1 elsewhere */
+#define SHEARING 0.5   /* likewise */
+#define SETTLED 0.0068 /* about the least distance from the letter: half of a thickness */
+#define BLOWN 0.03     /* of the banner: as solvers keep it, against folds that pass through */
+#define FRICTION 0.4   /* of the way along the surface, a substep */
+#define FLOOR (-0.25)  /* height */
+#define AIR 0.4        /* of the wind's velocity across the banner, a frame */
+#define GUST 60        /* frames from one to the next */
 
 typedef struct cloth {
     mote_glyph letter;
+    bool blown;              /* the banner */
+    double margin;           /* between the cloth and the letter's surface */
+    uint64_t substeps;       /* so far */
     uint32_t n;              /* simulated vertices along an edge */
     uint32_t fine;           /* vertices of the mesh along an edge */
     double spacing;          /* of the simulated grid */
@@ -44,6 +52,19 @@ static mote_vec3 at_rest(double u, double v)
 {
     const double x = EDGE * u, y = EDGE * v * (99.0 / 101), z = EDGE * v * (20.0 / 101);
     return mote_vec3_make(0.96 * x - 0.28 * y, 0.28 * x + 0.96 * y, HEIGHT + z);
+}
+
+/* The same of the banner: level, its held edge to one side of the letter and above it. */
+static mote_vec3 unrolled(double u, double v)
+{
+    return mote_vec3_make(EDGE * u - 0.2, 0.9 * EDGE * v, HEIGHT - 0.1);
+}
+
+/* Vertex j of row i at frame 1. */
+static mote_vec3 place(const cloth *c, size_t i, size_t j)
+{
+    const double u = (double)i / (c->n - 1) - 0.5, v = (double)j / (c->n - 1) - 0.5;
+    return c->blown ? unrolled(u, v) : at_rest(u, v);
 }
 
 /* Moves a pair towards its distance, by a share of the way. */
@@ -87,24 +108,68 @@ static void hold_all(cloth *c)
 }
 
 /* Moves a point out of the letter and the floor; whether it was in either, and their normal. */
-static bool push_out(const mote_glyph *letter, mote_vec3 *p, mote_vec3 *normal)
+static bool push_out(const cloth *c, mote_vec3 *p, mote_vec3 *normal)
 {
+    const mote_glyph *letter = &c->letter;
+    const double margin = c->margin;
     bool touched = false;
-    if (p->z < FLOOR + MARGIN) {
-        p->z = FLOOR + MARGIN;
+    if (p->z < FLOOR + margin) {
+        p->z = FLOOR + margin;
         *normal = mote_vec3_make(0, 0, 1);
         touched = true;
     }
-    if (p->z > letter->high.z + MARGIN || p->z < letter->low.z - MARGIN)
+    if (p->z > letter->high.z + margin || p->z < letter->low.z - margin)
         return touched;
     mote_vec3 gradient;
-    const double depth = MARGIN - mote_glyph_field(letter, *p, &gradient);
+    const double depth = margin - mote_glyph_field(letter, *p, &gradient);
     const double slope = sqrt(mote_length_squared(gradient));
     if (!(depth > 0) || !(slope > 0))
         return touched;
     *normal = mote_scale(gradient, 1 / slope);
     *p = mote_add_scaled(*p, depth, *normal);
     return true;
+}
+
+/* One edge of the banner is held where it was. */
+static void hold_edge(cloth *c)
+{
+    for (size_t j = 0; c->blown && j < c->n; ++j)
+        c->now[j] = c->before[j] = place(c, 0, j);
+}
+
+/* A wave of period 1 between -1 and 1, of two parabolas. */
+static double wave(double x)
+{
+    const double part = x - floor(x);
+    return part < 0.5 ? 16 * part * (0.5 - part) : -16 * (part - 0.5) * (1 - part);
+}
+
+/* The wind, L a frame: gusts that travel along the banner, and tilt as they go. */
+static mote_vec3 wind_at(mote_vec3 p, double frame)
+{
+    const double gust = wave(frame / GUST - 0.8 * p.x + 0.3 * p.y);
+    return mote_vec3_make(0.03 + 0.01 * gust, 0.004 * wave(frame / (0.7 * GUST)),
+                          0.006 + 0.009 * gust);
+}
+
+/* Takes the banner along with the part of the wind that is across it. */
+static void blow(cloth *c)
+{
+    const size_t n = c->n;
+    const double frame = (double)c->substeps++ / SUBSTEPS;
+    for (size_t k = n; c->blown && k < n * n; ++k) {
+        const size_t i = k / n, j = k % n;
+        const mote_vec3 along = mote_sub(c->now[k + (i + 1 < n ? n : 0)], c->now[k - n]);
+        const mote_vec3 side = mote_sub(c->now[k + (j + 1 < n)], c->now[k - (j > 0)]);
+        const mote_vec3 normal = mote_cross(along, side);
+        const mote_vec3 velocity = mote_scale(mote_sub(c->now[k], c->before[k]), SUBSTEPS);
+        const mote_vec3 against = mote_sub(wind_at(c->now[k], frame), velocity);
+        const double squared = mote_length_squared(normal);
+        if (squared > 0)
+            c->now[k] = mote_add_scaled(
+                c->now[k], AIR / (SUBSTEPS * SUBSTEPS) * mote_dot(against, normal) / squared,
+                normal);
+    }
 }
 
 static void substep(cloth *c)
@@ -117,11 +182,14 @@ static void substep(cloth *c)
         c->now[k].z -= pull;
         c->before[k] = old;
     }
-    for (int i = 0; i < ITERATIONS; ++i)
+    blow(c);
+    for (int i = 0; i < ITERATIONS; ++i) {
         hold_all(c);
+        hold_edge(c);
+    }
     for (size_t k = 0; k < count; ++k) {
         mote_vec3 normal = {0, 0, 0};
-        if (!push_out(&c->letter, &c->now[k], &normal))
+        if (!push_out(c, &c->now[k], &normal))
             continue;
         /* Friction takes back a part of the motion along the surface. */
         const mote_vec3 way = mote_sub(c->now[k], c->before[k]);
@@ -169,7 +237,7 @@ static void show(cloth *c, mote_vec3 *positions)
             mote_vec3 normal = {0, 0, 0};
             mote_vec3 *p = &positions[(size_t)l * fine + k];
             *p = refine(c->rows + (size_t)k * n, 1, n, l, fine);
-            (void)push_out(&c->letter, p, &normal);
+            (void)push_out(c, p, &normal);
         }
     }
 }
@@ -227,23 +295,23 @@ static mote_status make_grid(cloth *c)
     c->rows = c->fine > c->n ? malloc((size_t)c->fine * c->n * sizeof *c->rows) : NULL;
     if (!c->now || !c->before || (c->fine > c->n && !c->rows))
         return mote_fail(MOTE_ENOMEM, "cloth: no memory");
-    for (size_t k = 0; k < count; ++k) {
-        const size_t row = k / c->n, column = k % c->n;
-        c->now[k] = c->before[k] =
-            at_rest((double)row / (c->n - 1) - 0.5, (double)column / (c->n - 1) - 0.5);
-    }
+    for (size_t k = 0; k < count; ++k)
+        c->now[k] = c->before[k] = place(c, k / c->n, k % c->n);
     c->spacing = sqrt(mote_distance_squared(c->now[0], c->now[1]));
     return MOTE_OK;
 }
 
-static mote_status create(size_t triangle_count, mote_mesh **mesh, void **state)
+static mote_status create(const mote_simulated_body *kind, size_t triangle_count,
+                          mote_mesh **mesh, void **state)
 {
-    mote_status status = mote_simulated_check(&mote_simulated_cloth, triangle_count);
+    mote_status status = mote_simulated_check(kind, triangle_count);
     if (status != MOTE_OK)
         return status;
     cloth *c = calloc(1, sizeof *c);
     if (!c)
         return mote_fail(MOTE_ENOMEM, "cloth: no memory");
+    c->blown = kind == &mote_simulated_banner;
+    c->margin = c->blown ? BLOWN : SETTLED;
     const uint32_t squares = (uint32_t)(sqrt((double)triangle_count / 2) + 0.5);
     c->fine = squares + 1;
     c->n = squares < GRID ? squares + 1 : GRID + 1;
@@ -259,6 +327,20 @@ static mote_status create(size_t triangle_count, mote_mesh **mesh, void **state)
     return status;
 }
 
+static mote_status create_cloth(size_t triangle_count, mote_mesh **mesh, void **state)
+{
+    return create(&mote_simulated_cloth, triangle_count, mesh, state);
+}
+
+static mote_status create_banner(size_t triangle_count, mote_mesh **mesh, void **state)
+{
+    return create(&mote_simulated_banner, triangle_count, mesh, state);
+}
+
 const mote_simulated_body mote_simulated_cloth = {
     "cloth", "a square cloth that falls over a letter and onto the floor (position-based)",
-    create, destroy, step};
+    create_cloth, destroy, step};
+
+const mote_simulated_body mote_simulated_banner = {
+    "banner", "a cloth held along one edge that wind blows over a letter (position-based)",
+    create_banner, destroy, step};

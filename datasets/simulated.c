@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-const mote_simulated_body *const mote_simulated_list[] = {&mote_simulated_cloth,
-                                                          &mote_simulated_jelly, NULL};
+const mote_simulated_body *const mote_simulated_list[] = {
+    &mote_simulated_cloth, &mote_simulated_banner, &mote_simulated_jelly, NULL};
 
 const mote_simulated_body *mote_simulated_find(const char *name)
 {

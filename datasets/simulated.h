@@ -34,7 +34,8 @@ typedef struct mote_simulated_body {
     void (*step)(void *state, mote_vec3 *positions);
 } mote_simulated_body;
 
-extern const mote_simulated_body mote_simulated_cloth, mote_simulated_jelly;
+extern const mote_simulated_body mote_simulated_cloth, mote_simulated_banner,
+    mote_simulated_jelly;
 
 /* All of them, ended by NULL; the one of that name, or NULL. */
 extern const mote_simulated_body *const mote_simulated_list[];

@@ -1,7 +1,11 @@
-/* The boxes of two leaves' faces, and which pairs of them are near each other. */
+/* The boxes of two leaves' faces, which pairs of them are near each other, and their normals.
+ */
 #include "core/stream/stream_state.h"
 
 #include "core/base/clones.h"
+
+#include <float.h>
+#include <math.h>
 
 #define LEAF MOTE_STREAM_LEAF
 
@@ -79,6 +83,40 @@ static uint32_t pairs_near(const mote_stream_slot *restrict a,
         count += mote_bit_count(near->undecided[i]);
     }
     return count;
+}
+
+/* Twice the faces' area vectors, added up. Their products overflow where the positions are 10^9
+   times as far apart as L. */
+MOTE_CLONES
+static void add_normals(const uint8_t (*restrict corners)[3], size_t faces,
+                        mote_stream_slot *restrict slot)
+{
+    const float *x = slot->x[0], *y = slot->x[1], *z = slot->x[2];
+    float normal[3] = {0, 0, 0};
+    for (size_t i = 0; i < faces; ++i) {
+        const size_t a = corners[i][0], b = corners[i][1], c = corners[i][2];
+        const float bx = x[b] - x[a], by = y[b] - y[a], bz = z[b] - z[a];
+        const float cx = x[c] - x[a], cy = y[c] - y[a], cz = z[c] - z[a];
+        normal[0] += by * cz - bz * cy;
+        normal[1] += bz * cx - bx * cz;
+        normal[2] += bx * cy - by * cx;
+    }
+    /* of a length that neither overflows nor vanishes in sums along it; 0 where it may */
+    const float x_size = fabsf(normal[0]), y_size = fabsf(normal[1]), z_size = fabsf(normal[2]);
+    const float xy = x_size > y_size ? x_size : y_size, size = xy > z_size ? xy : z_size;
+    const bool usable = x_size + y_size + z_size <= FLT_MAX && size >= FLT_MIN;
+    for (size_t k = 0; k < 3; ++k)
+        slot->normal[k] = usable ? normal[k] / size : 0;
+}
+
+const float *mote_stream_normal(const mote_stream_search *s, int side, mote_stream_slot *slot)
+{
+    const mote_stream_tree *tree = s->side[side].body->tree;
+    if (!slot->averaged)
+        add_normals((const uint8_t(*)[3])tree->corners + (size_t)slot->leaf * LEAF,
+                    mote_stream_leaf_faces(tree, slot->leaf), slot);
+    slot->averaged = true;
+    return slot->normal;
 }
 
 uint32_t mote_stream_near_faces(const mote_stream_search *s, mote_stream_slot *const slot[2],

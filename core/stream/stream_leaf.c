@@ -122,7 +122,7 @@ mote_stream_slot *mote_stream_leaf(mote_stream_search *s, int side, uint32_t lea
     slot->leaf = leaf;
     slot->stamp = s->stamp;
     slot->reach_stamp = 0;
-    slot->boxed = false;
+    slot->boxed = slot->averaged = false;
     slot->groups = (count + WIDTH - 1) / WIDTH;
     gathered points;
     gather(of->body, tree->leaf_vertices + first, count, &points);

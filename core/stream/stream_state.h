@@ -47,6 +47,8 @@ typedef struct mote_stream_slot {
     uint32_t leaf, stamp; /* the query; another: empty */
     uint32_t groups;      /* of WIDTH points */
     bool boxed;           /* the faces' boxes are made */
+    bool averaged;        /* normal is */
+    float normal[3];      /* the mean of the faces: its largest number is 1, or all are 0 */
     uint32_t reach_stamp; /* the direction that reach belongs to; 0: none */
     double reach;         /* the largest coordinate towards the other body, exact to noise */
 } mote_stream_slot;
@@ -172,6 +174,9 @@ double mote_stream_reach(mote_stream_search *s, int side, mote_stream_slot *slot
 /* The pairs of faces of two leaves whose boxes are nearer than the limit; returns how many. */
 uint32_t mote_stream_near_faces(const mote_stream_search *s, mote_stream_slot *const slot[2],
                                 mote_cert_near *near);
+
+/* The mean normal of a leaf's faces, in the gap's axes. */
+const float *mote_stream_normal(const mote_stream_search *s, int side, mote_stream_slot *slot);
 
 /* stream_pair.c */
 

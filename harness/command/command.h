@@ -13,7 +13,7 @@
       "lists the methods, the scenarios or the kinds of fields", mote_options_list)            \
     X(letter, "LETTER --triangles COUNT -o FILE", "makes the mesh of a capital letter",        \
       mote_options_letter)                                                                     \
-    X(sequence, "cloth|jelly --triangles COUNT --out DIR",                                     \
+    X(sequence, "cloth|banner|jelly --triangles COUNT --out DIR",                              \
       "simulates a body that no field describes, and writes a scenario of its positions",      \
       mote_options_sequence)                                                                   \
     X(check, "SCENARIO",                                                                       \

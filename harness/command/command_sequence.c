@@ -1,14 +1,17 @@
 /* mote sequence cloth --triangles 11920 --out DIR */
+#include "datasets/letter.h"
 #include "datasets/obj_write.h"
 #include "datasets/simulated.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/command/command.h"
+#include "harness/scene/spread.h"
 #include "harness/sequence/point_cache.h"
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,18 +72,27 @@ static mote_status write_cache(const request *wish, const mote_mesh *mesh, void 
     return status;
 }
 
-/* The letter that the cloth falls on has about as many triangles. */
+/* The letter has about as many triangles, and stays where the simulation has it: a path is that
+   of the middle of a mesh's box, which a letter's origin need not be, in L of the pair. */
 static mote_status write_scenario(const request *wish, const mote_mesh *mesh, const char *path)
 {
     const uint32_t triangles = mesh->triangle_count / 2 * 2;
+    mote_mesh *letter;
+    mote_status status = mote_letter_create(MOTE_SIMULATED_LETTER, triangles, &letter);
+    if (status != MOTE_OK)
+        return status;
+    const double length = fmax(mesh->diagonal, letter->diagonal);
+    const mote_vec3 middle = mote_scale(mote_mesh_centre(letter), 1 / length);
     char *text = mote_format(
         "{\n  \"purpose\": \"%s: %u triangles.\",\n  \"frames\": %" PRIu64
         ",\n  \"ask\": \"distance\",\n  \"bodies\": [\n    {\"file\": \"%s.obj\", "
-        "\"positions\": \"%s.pc2\"},\n    {\"letter\": \"%c\", \"triangles\": %u}\n  ]\n}\n",
+        "\"positions\": \"%s.pc2\"},\n    {\"letter\": \"%c\", \"triangles\": %u, "
+        "\"motion\": [{\"frame\": 1, \"position\": [%.17g, %.17g, %.17g]}]}\n  ]\n}\n",
         wish->kind->summary, mesh->triangle_count, wish->frames, wish->kind->name,
-        wish->kind->name, MOTE_SIMULATED_LETTER, triangles);
-    const mote_status status = mote_file_write(path, text, strlen(text));
+        wish->kind->name, MOTE_SIMULATED_LETTER, triangles, middle.x, middle.y, middle.z);
+    status = mote_file_write(path, text, strlen(text));
     free(text);
+    mote_mesh_destroy(letter);
     return status;
 }
 

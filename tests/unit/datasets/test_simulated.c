@@ -1,8 +1,10 @@
 /* The cloth and the jelly: free fall in closed form until they land, and invariants
    afterwards. */
 #include "datasets/glyph.h"
+#include "datasets/letter.h"
 #include "datasets/simulated.h"
 #include "harness/base/hash.h"
+#include "harness/scene/scenario.h"
 #include "tests/support/mote.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
@@ -59,17 +61,17 @@ static double edge_length(const mote_vec3 *at, const mote_mesh *mesh, uint32_t t
         mote_distance_squared(at[mesh->triangles[t][k]], at[mesh->triangles[t][(k + 1) % 3]]));
 }
 
-TEST(cloth_stays_off_the_letter_and_hardly_stretches)
+static void check_cloth(const mote_simulated_body *kind)
 {
     mote_mesh *mesh;
     void *state;
     mote_glyph letter;
     assert_int_equal(mote_glyph_make(MOTE_SIMULATED_LETTER, &letter), MOTE_OK);
-    assert_int_equal(mote_simulated_cloth.create(TRIANGLES, &mesh, &state), MOTE_OK);
+    assert_int_equal(kind->create(TRIANGLES, &mesh, &state), MOTE_OK);
     mote_vec3 *now = malloc(mesh->vertex_count * sizeof *now), gradient;
     double lowest = 1, longest = 0;
     for (int k = 2; k <= FRAMES; ++k) {
-        mote_simulated_cloth.step(state, now);
+        kind->step(state, now);
         double sum = 0;
         for (uint32_t v = 0; v < mesh->vertex_count; ++v)
             assert_true(mote_glyph_field(&letter, now[v], &gradient) > 0);
@@ -83,7 +85,40 @@ TEST(cloth_stays_off_the_letter_and_hardly_stretches)
     }
     assert_true(longest < 1.35 && lowest > 0.8);
     free(now);
-    mote_simulated_cloth.destroy(state);
+    kind->destroy(state);
+    mote_mesh_destroy(mesh);
+}
+
+TEST(cloths_stay_off_the_letter_and_hardly_stretch)
+{
+    check_cloth(&mote_simulated_cloth);
+    check_cloth(&mote_simulated_banner);
+}
+
+/* The banner is held along one edge, and comes near to the letter again and again. */
+TEST(banner_flutters_over_the_letter)
+{
+    mote_mesh *mesh;
+    void *state;
+    mote_glyph letter;
+    int approaches = 0;
+    double before = 0;
+    assert_int_equal(mote_glyph_make(MOTE_SIMULATED_LETTER, &letter), MOTE_OK);
+    assert_int_equal(mote_simulated_banner.create(TRIANGLES, &mesh, &state), MOTE_OK);
+    mote_vec3 *now = malloc(mesh->vertex_count * sizeof *now), gradient;
+    for (int k = 2; k <= 200; ++k) {
+        double nearest = HUGE_VAL;
+        mote_simulated_banner.step(state, now);
+        for (uint32_t v = 0; v < mesh->vertex_count; ++v)
+            nearest = fmin(nearest, mote_glyph_field(&letter, now[v], &gradient));
+        approaches += k > 2 && nearest < 0.1 && !(before < 0.1);
+        before = nearest;
+        for (int v = 0; v < 10; ++v) /* of the edge that is held */
+            assert_true(mote_distance_squared(now[v], mesh->positions[v]) < 1e-20);
+    }
+    assert_true(approaches >= 2);
+    free(now);
+    mote_simulated_banner.destroy(state);
     mote_mesh_destroy(mesh);
 }
 
@@ -132,6 +167,7 @@ TEST(simulated_bodies_have_the_same_bits_everywhere)
         const mote_simulated_body *kind;
         uint64_t hash;
     } rows[] = {{&mote_simulated_cloth, 0x19bfbed01935690e},
+                {&mote_simulated_banner, 0x1774b4172f0c9417},
                 {&mote_simulated_jelly, 0xdd19688adc2b7bf7}};
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
         mote_mesh *mesh;
@@ -162,8 +198,30 @@ TEST(sequence_command_writes_a_scenario_that_runs)
     }
     assert_int_equal(folder_count("d", ".partial"), 0);
     mote_expect(4, "out of range; give 800 to", "sequence cloth --triangles 799 --out e");
-    mote_expect(2, "not one of cloth, jelly", "sequence flag --triangles 799 --out e");
+    mote_expect(2, "not one of cloth, banner, jelly", "sequence flag --triangles 799 --out e");
     mote_expect(2, "something is missing", "sequence cloth --triangles 800");
     mote_expect(2, "--frames 0", "sequence cloth --triangles 800 --frames 0 --out e");
     assert_false(file_exists("e"));
+}
+
+/* The letter's origin is not the middle of its box, which is what a scenario places. */
+TEST(sequence_scenario_has_the_letter_where_the_simulation_has_it)
+{
+    mote_scenario *scenario;
+    mote_mesh *letter;
+    mote_expect(0, "2 frames", "sequence cloth --triangles 1000 --frames 2 --out d");
+    assert_int_equal(mote_scenario_load("d/cloth.json", &scenario), MOTE_OK);
+    const mote_body *body = &scenario->body[1];
+    assert_int_equal(
+        mote_letter_create(MOTE_SIMULATED_LETTER, body->mesh->triangle_count, &letter),
+        MOTE_OK);
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
+    const mote_frame *frame = mote_scenario_frame(scenario, buffer, 1, 0);
+    for (uint32_t v = 0; v < letter->vertex_count; ++v) {
+        const mote_vec3 at = mote_body_position(body, &frame->body[1], v);
+        assert_true(mote_distance_squared(at, letter->positions[v]) < 1e-28);
+    }
+    mote_frame_buffer_destroy(buffer);
+    mote_mesh_destroy(letter);
+    mote_scenario_destroy(scenario);
 }
