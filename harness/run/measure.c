@@ -79,7 +79,8 @@ static mote_status build(session *s)
     const uint64_t start = mote_clock_ns();
     const mote_status status = mote_engine_build(s->engine);
     s->result->build_ns = mote_clock_ns() - start;
-    s->result->deform_bytes = mote_engine_deform_bytes(s->engine);
+    if (status == MOTE_OK)
+        s->result->deform_bytes = mote_engine_deform_bytes(s->engine);
     return status;
 }
 

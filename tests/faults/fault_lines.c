@@ -179,13 +179,15 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_kind ki
 }
 
 /* A coverage build tries every place, or every third of a line that has many and takes long.
-   Other builds try a sample, to save time; with sanitizers a smaller one. */
+   Other builds try all places of a line that has few, and else a sample, to save time; with
+   sanitizers a smaller one. */
 static size_t stride(size_t places)
 {
 #ifdef MOTE_COVERAGE
     return places > 350 ? 3 : 1;
 #else
-    (void)places;
+    if (places <= 60)
+        return 1;
     return mote_heap_read().counted ? 20 : 40;
 #endif
 }
