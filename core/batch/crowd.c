@@ -265,11 +265,16 @@ mote_status mote_crowd_step(mote_crowd *crowd, const mote_controls *controls, do
         status = mote_scene_bounds(crowd->scene, crowd->states, crowd->bounds);
     if (status == MOTE_OK)
         status = find_pairs(crowd, within);
+    const uint32_t(*near)[2];
+    size_t near_count;
     if (status == MOTE_OK)
-        status = mote_scene_query(crowd->scene, crowd->states,
-                                  (const uint32_t(*)[2])crowd->pairs, crowd->pair_count);
+        status = mote_scene_sift(crowd->scene, crowd->states, within,
+                                 (const uint32_t(*)[2])crowd->pairs, crowd->pair_count, &near,
+                                 &near_count);
     if (status == MOTE_OK)
-        *count = crowd->pair_count;
+        status = mote_scene_query(crowd->scene, crowd->states, near, near_count);
+    if (status == MOTE_OK)
+        *count = near_count;
     return status;
 }
 

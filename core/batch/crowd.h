@@ -34,12 +34,13 @@ void mote_crowd_destroy(mote_crowd *crowd);
 /* L: the largest rest L of the shapes. */
 double mote_crowd_length(const mote_crowd *crowd);
 
-/* One step: finds the pairs of bodies whose boxes are at most `within` >= 0 apart (infinity:
-   all pairs), and answers for each; *count says how many. Every pair of bodies at most `within`
-   apart is among them. The steps in controls[body_count] are not read: each has the numbers of
-   this step. Pairs that were also in the last step continue from their state. MOTE_EINVAL,
-   naming the body: as mote_controls_read; within is negative or NaN. MOTE_ENOMEM. Cost: 0.2 us
-   a body, the queries, and a sort and sweep along one axis. */
+/* One step: finds the pairs of bodies of which boxes around them and around their parts are at
+   most `within` >= 0 apart (infinity: all pairs), and answers for each; *count says how many.
+   Every pair of bodies at most `within` apart is among them. The steps in controls[body_count]
+   are not read: each has the numbers of this step. Pairs that were also in the last step
+   continue from their state. MOTE_EINVAL, naming the body: as mote_controls_read; within is
+   negative or NaN. MOTE_ENOMEM. Cost: 1 us a body, the queries, and a sort and sweep along one
+   axis. */
 mote_status mote_crowd_step(mote_crowd *crowd, const mote_controls *controls, double within,
                             size_t *count);
 

@@ -43,7 +43,7 @@ size_t mote_pair_list_bytes(const mote_pair_list *list)
     return list->room * (sizeof *list->pairs + list->memory_size);
 }
 
-static mote_status check(const uint32_t (*pairs)[2], size_t count, uint32_t bodies)
+mote_status mote_pair_list_check(const uint32_t (*pairs)[2], size_t count, uint32_t bodies)
 {
     for (size_t k = 0; k < count; ++k) {
         if (pairs[k][0] >= pairs[k][1] || pairs[k][1] >= bodies)
@@ -103,7 +103,7 @@ static void carry_over(const mote_pair_list *last, const uint32_t (*pairs)[2], s
 mote_status mote_pair_list_renew(mote_pair_list *now, mote_pair_list *before,
                                  const uint32_t (*pairs)[2], size_t count, uint32_t bodies)
 {
-    mote_status status = check(pairs, count, bodies);
+    mote_status status = mote_pair_list_check(pairs, count, bodies);
     if (status == MOTE_OK)
         status = make_room(before, count);
     if (status != MOTE_OK)

@@ -21,11 +21,15 @@ void mote_pair_list_free(mote_pair_list *list);
 
 size_t mote_pair_list_bytes(const mote_pair_list *list);
 
+/* MOTE_EINVAL, naming the pair, unless i < j < bodies in each, ascending by i, then j, each
+ * once.
+ */
+mote_status mote_pair_list_check(const uint32_t (*pairs)[2], size_t count, uint32_t bodies);
+
 /* Makes pairs[count] those of `now`: each with its memory from the step before, if it was near
    then, and the number of steps for which it has been near; `before` is room for the next step.
-   MOTE_EINVAL, naming the pair, unless i < j < bodies in each, ascending by i, then j, each
-   once; MOTE_ENOMEM. Then both lists are as they were. Allocates only when there are more pairs
-   than ever before. */
+   MOTE_EINVAL as mote_pair_list_check; MOTE_ENOMEM. Then both lists are as they were. Allocates
+   only when there are more pairs than ever before. */
 mote_status mote_pair_list_renew(mote_pair_list *now, mote_pair_list *before,
                                  const uint32_t (*pairs)[2], size_t count, uint32_t bodies);
 

@@ -2,6 +2,7 @@
 
 #include "core/certificate/certificate_shared.h"
 #include "core/certificate/pair_list.h"
+#include "core/certificate/scene_sift.h"
 #include "core/base/pool.h"
 
 #include <stdlib.h>
@@ -21,6 +22,7 @@ struct mote_scene {
     mote_pool *pool;
     mote_certificate **workspaces; /* [threads] */
     mote_pair_list now, before;
+    mote_sift sift;
     /* Arguments of the loop that is running: */
     const mote_body_state *states;
     mote_scene_box *bounds;
@@ -101,6 +103,7 @@ void mote_scene_destroy(mote_scene *scene)
     free(scene->shape_of);
     mote_pair_list_free(&scene->now);
     mote_pair_list_free(&scene->before);
+    mote_sift_free(&scene->sift);
     free(scene);
 }
 
@@ -111,7 +114,8 @@ size_t mote_scene_bytes(const mote_scene *scene)
         bytes += mote_cert_tree_bytes(scene->trees[i]);
     for (uint32_t i = 0; i < scene->options.threads; ++i)
         bytes += mote_cert_workspace_bytes(scene->workspaces[i]);
-    return bytes + mote_pair_list_bytes(&scene->now) + mote_pair_list_bytes(&scene->before);
+    return bytes + mote_pair_list_bytes(&scene->now) + mote_pair_list_bytes(&scene->before) +
+           mote_sift_bytes(&scene->sift, scene->body_count);
 }
 
 double mote_scene_length(const mote_scene *scene)
@@ -153,6 +157,31 @@ mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
     for (uint32_t i = 0; i < scene->body_count && status == MOTE_OK; ++i)
         status = check_bounds(&bounds[i], i);
     return status;
+}
+
+mote_status mote_scene_sift(mote_scene *scene, const mote_body_state *states, double near,
+                            const uint32_t (*pairs)[2], size_t count,
+                            const uint32_t (**kept)[2], size_t *kept_count)
+{
+    const mote_sift_scene lent = {.pool = scene->pool,
+                                  .workspaces = scene->workspaces,
+                                  .trees = scene->trees,
+                                  .shape_of = scene->shape_of,
+                                  .body_count = scene->body_count,
+                                  .states = states};
+    if (!(near >= 0))
+        return mote_fail(MOTE_EINVAL, "near: %g; it must not be negative", near);
+    mote_status status = mote_pair_list_check(pairs, count, scene->body_count);
+    *kept = pairs;
+    *kept_count = count;
+    if (status != MOTE_OK || isinf(near))
+        return status;
+    status = mote_sift_pairs(&scene->sift, &lent, near, pairs, count);
+    if (status != MOTE_OK)
+        return status;
+    *kept = (const uint32_t(*)[2])scene->sift.pairs;
+    *kept_count = scene->sift.count;
+    return MOTE_OK;
 }
 
 static void answer_pair(mote_scene *s, mote_certificate *workspace, mote_scene_pair *pair,

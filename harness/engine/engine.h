@@ -21,9 +21,10 @@ typedef struct mote_engine_setup {
     mote_ask ask;
     uint32_t step;    /* of MOTE_ASK_IMPACT: pieces of the paths; else 0 */
     double tolerance; /* absolute */
-    double near;   /* absolute; pairs whose bounds are at most this far apart are near. Infinite
-                      for two bodies, which are always near, so any method can answer */
-    uint64_t seed; /* for methods that draw random numbers, the same for every pair */
+    double near; /* absolute; pairs are near of which boxes around the bodies and their parts do
+                    not show that they are farther apart. Infinite for two bodies, which are
+                    always near, so any method can answer */
+    uint64_t seed;     /* for methods that draw random numbers, the same for every pair */
     uint64_t clock_ns; /* cost of reading the clock, subtracted from the times of two bodies */
 } mote_engine_setup;
 

@@ -100,8 +100,11 @@ mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
                                   mote_pairs_wanted *wanted)
 {
     const uint64_t from = mote_clock_ns();
-    const mote_status status = mote_broad_phase_pairs(e->broad, e->boxes, e->setup.near,
-                                                      &wanted->pairs, &wanted->count);
+    mote_status status = mote_broad_phase_pairs(e->broad, e->boxes, e->setup.near,
+                                                &wanted->pairs, &wanted->count);
+    if (status == MOTE_OK && e->scene && !e->scene_body)
+        status = mote_scene_sift(e->scene, e->states, e->setup.near, wanted->pairs,
+                                 wanted->count, &wanted->pairs, &wanted->count);
     cost->broad_ns = mote_clock_ns() - from;
     return status;
 }

@@ -81,8 +81,8 @@ void mote_cell_name(mote_cell *cell, uint64_t program);
 #define MOTE_SCENE_COLUMNS(X)                                                                  \
     X(motion_ns)                                                                               \
     X(bounds_ns)  /* boxes of all bodies */                                                    \
-    X(broad_ns)   /* near pairs by the boxes */                                                \
-    X(near_pairs) /* whose bounds are at most the scenario's `near` apart */                   \
+    X(broad_ns)   /* near pairs by the boxes, and by those of parts */                         \
+    X(near_pairs) /* not shown by them to be more than the scenario's `near` apart */          \
     X(new_pairs)  /* those that were not near in the previous frame */                         \
     X(pair_contacts)
 

@@ -45,7 +45,7 @@ typedef struct mote_bodies {
     uint32_t frames;
     mote_ask ask;
     double tolerance; /* absolute */
-    double near;      /* absolute; pairs whose bounds are at most this far apart are near */
+    double near;      /* absolute; pairs at most this far apart are found */
     double length;    /* L: the largest of the shapes' */
     mote_bodies_shape *shapes;
     uint32_t shape_count;

@@ -280,8 +280,13 @@ static mote_status make_scene(void *context)
     mote_scene *s = NULL;
     mote_status status =
         mote_scene_create(c->shape, CROWD_SHAPES, c->shape_of, c->count, &options, &s);
-    for (size_t near = 1; status == MOTE_OK && near <= 3; near += 2)
-        status = mote_scene_query(s, c->states, pairs, near);
+    for (size_t near = 1; status == MOTE_OK && near <= 3; near += 2) {
+        const uint32_t(*kept)[2];
+        size_t count;
+        status = mote_scene_sift(s, c->states, 1, pairs, near, &kept, &count);
+        if (status == MOTE_OK)
+            status = mote_scene_query(s, c->states, pairs, near);
+    }
     mote_scene_destroy(s);
     return status;
 }

@@ -92,8 +92,8 @@ class Scene(lib.Guarded):
         return self._members[integer("shape", shape, 0, len(self._members) - 1)].copy()
 
     def step(self, poses: object, weights: object = None, *, within: float = 0.0) -> Near:
-        """Moves all bodies and asks about the pairs whose boxes are at most `within` apart.
-        All pairs of bodies that are at most that far apart are among them, and some others. Pairs that were also
+        """Moves all bodies and asks about the pairs that boxes around them and their parts do not show to be
+        more than `within` apart. All pairs at most that far apart are among them, and some others. Pairs that were also
         near in the last step continue from their answers, which is faster.
 
         poses: float64 (bodies, 3, 4) or (bodies, 4, 4). weights: None; where there is one shape,

@@ -69,32 +69,6 @@ static mote_status ask(mote_engine *engine, const mote_bodies_frame *frame,
     return mote_engine_ask(engine, cost);
 }
 
-TEST(mote_bodies_load_near_pairs_are_as_wished)
-{
-    static const char *const wishes[] = {"0.1", "1", "4"};
-    for (int k = 0; k < 3; ++k) {
-        char *more = mote_format("\"count\": 40, \"near_pairs\": %s, " SHAPES, wishes[k]);
-        mote_bodies *b = load("", more);
-        free(more);
-        mote_bodies_frame frame = frame_of(b);
-        mote_engine *engine = engine_of(b, "aabb-tree");
-        double pairs = 0;
-        for (uint32_t f = 1; f <= b->frames; ++f) {
-            mote_engine_cost step;
-            mote_bodies_frame_set(b, f, &frame);
-            assert_int_equal(ask(engine, &frame, &step), MOTE_OK);
-            if (f == 1)
-                assert_int_equal(step.contacts, 0);
-            pairs += (double)step.pairs;
-        }
-        const double mean = pairs / b->frames / b->count;
-        assert_close(mean / strtod(wishes[k], NULL), 1, 0.3);
-        mote_engine_destroy(engine);
-        mote_bodies_frame_free(&frame);
-        mote_bodies_destroy(b);
-    }
-}
-
 TEST(mote_bodies_frame_set_long_paths_stay_in_the_box)
 {
     mote_bodies *b = load("", "\"count\": 20, \"box\": [4, 3, 2], \"speed\": 0.3, " SHAPES);
