@@ -11,6 +11,7 @@
    half size of the union once more each: at most 38 u S. The union of intervals within -S .. S
    is within it, so that all terms of the box are at most 2 S; what tests of boxes round is at
    most 40 u of what these add up to (certificate_fitted.c): 38 sqrt(3) + 80 < 160 u S.
+   - Numbers of rows at leaves are converted and scaled without rounding.
    - At leaves, with K (head.row_sum) the sum of the sizes of a child's entries, all terms add
    up to at most B = S (1 + 2 K): e and the d_k together are at most 2 S. Each is rounded at
    most 13 times, and n times more where n bones are added up: sqrt(3) (n + 13) + 40 < 2 n + 64
@@ -105,12 +106,10 @@ MOTE_INLINE void image(const shape *restrict box, const float x, const float y, 
         at[1 + k] = x * box->half[k][0][l] + y * box->half[k][1][l] + z * box->half[k][2][l];
 }
 
-/* That of what is loose. */
+/* That of what is loose; box->loose is not NULL. */
 MOTE_INLINE float loose_image(const shape *restrict box, const float x, const float y,
                               const float z, size_t l)
 {
-    if (!box->loose)
-        return 0;
     return fabsf(x) * box->loose[0][l] + fabsf(y) * box->loose[1][l] +
            fabsf(z) * box->loose[2][l];
 }
@@ -153,8 +152,9 @@ MOTE_INLINE void convex_along(const mote_cert_side *restrict side,
             const float round = row->radius[l] * sqrtf((a * a + b * b) + (c * c + 0x1p-120F));
             const float flat = (a + b) + c;
             const float absent = row->radius[l] > 0 ? 0 : -0x1p110F;
-            const float size =
-                ((round < flat ? round : flat) + loose_image(box, x, y, z, l)) + absent;
+            float size = (round < flat ? round : flat) + absent;
+            if (box->loose)
+                size += loose_image(box, x, y, z, l);
             low[l] = low[l] < at - size ? low[l] : at - size;
             high[l] = high[l] > at + size ? high[l] : at + size;
         }
@@ -239,65 +239,114 @@ static float leaf_margin(const mote_cert_side *side, const mote_cert_block *bloc
 /* Middle, three axes and half width along a line. */
 typedef struct fitted {
     float middle[WIDTH], axis[3][WIDTH], width[WIDTH];
+    float loose[WIDTH];  /* the most that a bone makes of what is loose */
+    float own[4][WIDTH]; /* the reference bones' rows, times MOTE_SKIN_PACKED */
 } fitted;
 
-MOTE_INLINE void leaf_along(const mote_cert_side *restrict side,
-                            const mote_cert_block *restrict block, const shape *restrict box,
-                            const float *restrict line, float margin, fitted *restrict out)
+/* What the reference bone of each child makes of it. line: rows of the bones. */
+MOTE_INLINE void begin_fitted(const uint16_t *restrict reference, const shape *restrict box,
+                              const float *restrict line, float margin, fitted *restrict to)
 {
-    const void *strips = side->tree->strips + block->first_strip + 1;
-    const mote_skin_leaf_row *rows = strips;
-    const uint16_t *reference = side->tree->active + block->first_active;
-    const uint16_t *active = reference + WIDTH;
-    const size_t count = block->active_count - WIDTH - (size_t)head_of(side, block)->morphs;
     _Alignas(32) float own[4][WIDTH];
     for (size_t l = 0; l < WIDTH; ++l) {
         const float *m = line + (size_t)4 * reference[l];
         for (size_t k = 0; k < 4; ++k)
             own[k][l] = m[k];
     }
-    float middle[WIDTH], a0[WIDTH], a1[WIDTH], a2[WIDTH], width[WIDTH], loose[WIDTH];
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l) {
         float p[4];
         image(box, own[0][l], own[1][l], own[2][l], l, p);
-        middle[l] = own[3][l] + p[0];
-        a0[l] = p[1];
-        a1[l] = p[2];
-        a2[l] = p[3];
-        width[l] = margin;
-        loose[l] = loose_image(box, own[0][l], own[1][l], own[2][l], l);
+        to->middle[l] = own[3][l] + p[0];
+        to->axis[0][l] = p[1];
+        to->axis[1][l] = p[2];
+        to->axis[2][l] = p[3];
+        to->width[l] = margin;
+        to->loose[l] = !box->loose ? 0 : loose_image(box, own[0][l], own[1][l], own[2][l], l);
     }
-    for (size_t i = 0; i < count; ++i) {
-        const mote_skin_leaf_row *row = &rows[i];
-        const float *m = line + (size_t)4 * active[i];
-        const float x = m[0], y = m[1], z = m[2], t = m[3];
+    for (size_t k = 0; k < 4; ++k) {
         MOTE_LANE_LOOP
-        for (size_t l = 0; l < WIDTH; ++l) {
-            float d[4];
-            image(box, x - own[0][l], y - own[1][l], z - own[2][l], l, d);
-            const float e = (t - own[3][l]) + d[0];
-            const float f = row->offset[l];
-            middle[l] += f * e + (row->shift[0][l] * d[1] + row->shift[1][l] * d[2] +
+        for (size_t l = 0; l < WIDTH; ++l)
+            to->own[k][l] = MOTE_SKIN_PACKED * own[k][l];
+    }
+}
+
+/* A row's numbers, unpacked once for all lines. */
+typedef struct leaf_numbers {
+    float offset[WIDTH], residual[WIDTH];
+    float slope[3][WIDTH], shift[3][WIDTH], spread[3][WIDTH];
+} leaf_numbers;
+
+MOTE_INLINE void unpack_leaf(const mote_skin_leaf_row *restrict row, leaf_numbers *restrict to)
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        to->offset[l] = mote_skin_first(row->offset[l]);
+        to->residual[l] = mote_skin_second(row->offset[l]);
+        for (size_t k = 0; k < 3; ++k) {
+            to->slope[k][l] = mote_skin_first(row->slope[k][l]);
+            to->shift[k][l] = mote_skin_second(row->slope[k][l]);
+        }
+        to->spread[0][l] = mote_skin_first(row->spread[0][l]);
+        to->spread[1][l] = mote_skin_second(row->spread[0][l]);
+        to->spread[2][l] = mote_skin_first(row->spread[1][l]);
+    }
+}
+
+/* Adds what a bone moves otherwise than the reference bones do. m: the bone's row of the line.
+ */
+MOTE_INLINE void add_fitted(const leaf_numbers *restrict row, const shape *restrict box,
+                            const float *restrict m, fitted *restrict to)
+{
+    const float x = m[0], y = m[1], z = m[2];
+    const float ux = MOTE_SKIN_PACKED * x, uy = MOTE_SKIN_PACKED * y;
+    const float uz = MOTE_SKIN_PACKED * z, ut = MOTE_SKIN_PACKED * m[3];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        float d[4];
+        image(box, ux - to->own[0][l], uy - to->own[1][l], uz - to->own[2][l], l, d);
+        const float e = (ut - to->own[3][l]) + d[0];
+        const float f = row->offset[l];
+        const float residual = row->residual[l];
+        to->middle[l] += f * e + (row->shift[0][l] * d[1] + row->shift[1][l] * d[2] +
                                   row->shift[2][l] * d[3]);
-            a0[l] += row->slope[0][l] * e + f * d[1];
-            a1[l] += row->slope[1][l] * e + f * d[2];
-            a2[l] += row->slope[2][l] * e + f * d[3];
-            width[l] += row->residual[l] * fabsf(e) +
+        to->axis[0][l] += row->slope[0][l] * e + f * d[1];
+        to->axis[1][l] += row->slope[1][l] * e + f * d[2];
+        to->axis[2][l] += row->slope[2][l] * e + f * d[3];
+        to->width[l] += residual * fabsf(e) +
                         (row->spread[0][l] * fabsf(d[1]) + row->spread[1][l] * fabsf(d[2]) +
                          row->spread[2][l] * fabsf(d[3]));
-            const float other = row->residual[l] > 0 ? loose_image(box, x, y, z, l) : 0;
-            loose[l] = other > loose[l] ? other : loose[l];
+        if (box->loose) {
+            const float other = residual > 0 ? loose_image(box, x, y, z, l) : 0;
+            to->loose[l] = other > to->loose[l] ? other : to->loose[l];
         }
     }
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < WIDTH; ++l)
-        width[l] += loose[l];
-    memcpy(out->middle, middle, sizeof middle);
-    memcpy(out->axis[0], a0, sizeof a0);
-    memcpy(out->axis[1], a1, sizeof a1);
-    memcpy(out->axis[2], a2, sizeof a2);
-    memcpy(out->width, width, sizeof width);
+}
+
+/* Along `lines` lines, in one pass over the block's rows. */
+MOTE_INLINE void leaf_along(const mote_cert_side *restrict side,
+                            const mote_cert_block *restrict block, const shape *restrict box,
+                            float *const *restrict line, size_t lines, float margin,
+                            fitted *restrict out)
+{
+    const void *strips = side->tree->strips + block->first_strip + 1;
+    const mote_skin_leaf_row *rows = strips;
+    const uint16_t *reference = side->tree->active + block->first_active;
+    const uint16_t *active = reference + WIDTH;
+    const size_t count = block->active_count - WIDTH - (size_t)head_of(side, block)->morphs;
+    for (size_t r = 0; r < lines; ++r)
+        begin_fitted(reference, box, line[r], margin, &out[r]);
+    for (size_t i = 0; i < count; ++i) {
+        leaf_numbers row;
+        unpack_leaf(&rows[i], &row);
+        for (size_t r = 0; r < lines; ++r)
+            add_fitted(&row, box, line[r] + (size_t)4 * active[i], &out[r]);
+    }
+    for (size_t r = 0; r < lines && box->loose; ++r) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            out[r].width[l] += out[r].loose[l];
+    }
 }
 
 /* Bit l: leaf l is much wider than the margin and than its axes. */
@@ -322,13 +371,13 @@ MOTE_INLINE void leaf_boxes(const mote_cert_side *restrict side,
                             mote_cert_node *restrict node)
 {
     const float margin = leaf_margin(side, block);
+    fitted f[3];
+    leaf_along(side, block, &box, mote_skin_frame_of(side)->row, 3, margin, f);
     for (size_t r = 0; r < 3; ++r) {
-        fitted f;
-        leaf_along(side, block, &box, mote_skin_frame_of(side)->row[r], margin, &f);
-        memcpy(node->centre[r], f.middle, sizeof f.middle);
+        memcpy(node->centre[r], f[r].middle, sizeof f[r].middle);
         for (size_t k = 0; k < 3; ++k)
-            memcpy(node->axis[k][r], f.axis[k], sizeof f.axis[k]);
-        memcpy(node->width[r], f.width, sizeof f.width);
+            memcpy(node->axis[k][r], f[r].axis[k], sizeof f[r].axis[k]);
+        memcpy(node->width[r], f[r].width, sizeof f[r].width);
     }
     uint32_t leaves = 0;
     for (size_t l = 0; l < WIDTH; ++l)
@@ -344,7 +393,7 @@ MOTE_INLINE void leaf_project(const mote_cert_side *restrict side,
                               mote_cert_node *restrict node)
 {
     fitted f;
-    leaf_along(side, block, &box, mote_skin_frame_of(side)->along, leaf_margin(side, block),
+    leaf_along(side, block, &box, &mote_skin_frame_of(side)->along, 1, leaf_margin(side, block),
                &f);
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l)

@@ -44,19 +44,40 @@ typedef struct mote_skin_head {
     float unused[MOTE_CERT_WIDTH - 3];
 } mote_skin_head;
 
-typedef struct mote_skin_leaf_row {
-    mote_cert_strip offset;    /* f */
-    mote_cert_strip slope[3];  /* g_k */
-    mote_cert_strip residual;  /* m */
-    mote_cert_strip shift[3];  /* s_k */
-    mote_cert_strip spread[3]; /* m_k */
-} mote_skin_leaf_row;
-
 typedef struct mote_skin_convex_row {
     mote_cert_strip middle[3];
     mote_cert_strip half[3];
     mote_cert_strip radius; /* in units of half; 0 where the bone moves none of the vertices */
 } mote_skin_convex_row;
+
+/* Two numbers a child, of which a row at leaves is made: the first in the upper half of a word,
+   the second in the lower, both in multiples of 2^-14. f, g_k and s_k may be any of these,
+   since m and m_k are measured after that, and rounded up. */
+typedef uint32_t mote_skin_pairs[MOTE_CERT_WIDTH];
+#define MOTE_SKIN_UNIT 0x1p-14
+
+/* The sum of abs(g_k) is held within this: w - f is within 1.75 then, and fits 16 bits. */
+#define MOTE_SKIN_SLOPES 0.75
+
+typedef struct mote_skin_leaf_row {
+    mote_skin_pairs offset;    /* f, and m, which is more than 0 where the bone has a row */
+    mote_skin_pairs slope[3];  /* g_k and s_k */
+    mote_skin_pairs spread[2]; /* m_1 and m_2; m_3 and 0 */
+} mote_skin_leaf_row;
+
+/* Either number of a pair, exact once it is multiplied by this. Words of one size only, since
+   loops over lanes that mix sizes are vectorised by the narrowest vectors. */
+#define MOTE_SKIN_PACKED 0x1p-30F
+
+static inline float mote_skin_first(uint32_t pair)
+{
+    return (float)(int32_t)(pair & 0xffff0000u);
+}
+
+static inline float mote_skin_second(uint32_t pair)
+{
+    return (float)(int32_t)(pair << 16);
+}
 
 /* In the target's size. [coordinate], slopes [axis][coordinate]. */
 typedef struct mote_skin_morph_row {

@@ -10,10 +10,16 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
+#define UNIT MOTE_SKIN_UNIT
+
+/* The numbers of a mote_skin_leaf_row, in units, in its order. */
+typedef int16_t number[WIDTH];
+enum { OFFSET, RESIDUAL, SLOPE, SHIFT, SPREAD = SLOPE + 6, NUMBERS = SPREAD + 4 };
+
 /* One bone over the children of the block at hand. */
 typedef struct bone_rows {
     union {
-        mote_skin_leaf_row leaf;
+        number leaf[NUMBERS]; /* slope and shift of an axis are followed by those of the next */
         mote_skin_convex_row convex;
     } row;
     /* over the child at hand: */
@@ -219,20 +225,39 @@ static void add_up(fitter *f, const mote_cert_tree *tree, const mote_cert_part *
         a[r][r] += 1e-6 * (double)part->count; /* where the vertices do not spread */
 }
 
-/* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. Slopes only
-   decide how wide the residuals are: beyond 4 they would cost more in margins than they save.
- */
+/* A middle and a half size in units that hold a range of numbers, of which the rounding of the
+   sums that they are is less than 2^-26 units. */
+static void settle(const mote_range *range, int16_t *middle, int16_t *half)
+{
+    *middle = (int16_t)lround(0.5 * (range->low + range->high) / UNIT);
+    const double m = UNIT * *middle;
+    const double most = range->high - m > m - range->low ? range->high - m : m - range->low;
+    *half = (int16_t)ceil(most / UNIT + 0x1p-26);
+}
+
+/* The slopes of a bone's weight over a child, as they are stored. They only decide how wide the
+   residuals are. */
+static void choose_slopes(const fitter *f, uint32_t bone, int16_t slope[3])
+{
+    const double *wanted = f->rows[bone].right + 1;
+    const double sum = fabs(wanted[0]) + fabs(wanted[1]) + fabs(wanted[2]);
+    const double part = sum > MOTE_SKIN_SLOPES ? MOTE_SKIN_SLOPES / sum : 1;
+    for (int k = 0; k < 3; ++k)
+        slope[k] = f->linear && sum < DBL_MAX ? (int16_t)(wanted[k] * part / UNIT) : 0;
+}
+
+/* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. */
 static double write_lane(const fitter *f, const mote_cert_tree *tree,
                          const mote_cert_part *part, uint32_t bone)
 {
-    mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
+    number *row = f->rows[bone].row.leaf;
     const size_t lane = part->lane;
-    double g[3], sum = 0;
+    int16_t slope[3];
+    choose_slopes(f, bone, slope);
+    double g[3];
     for (int k = 0; k < 3; ++k) {
-        const double slope = f->linear ? f->rows[bone].right[k + 1] : 0;
-        g[k] = mote_as_float(fabs(slope) <= 4 ? slope : 0);
-        row->slope[k][lane] = (float)g[k];
-        sum += fabs(g[k]);
+        row[SLOPE + 2 * k][lane] = slope[k];
+        g[k] = UNIT * slope[k];
     }
     mote_range residual = MOTE_RANGE_EMPTY;
     for (size_t v = 0; v < part->count; ++v) {
@@ -242,8 +267,8 @@ static double write_lane(const fitter *f, const mote_cert_tree *tree,
         mote_range_widen(&residual, weight_of(f->skin, vertex, bone) - g[0] * z[0] -
                                         g[1] * z[1] - g[2] * z[2]);
     }
-    sum += mote_range_settle(&residual, &row->offset[lane], &row->residual[lane]);
-    const double offset = (double)row->offset[lane];
+    settle(&residual, &row[OFFSET][lane], &row[RESIDUAL][lane]);
+    const double offset = UNIT * row[OFFSET][lane];
     mote_range product[3] = {MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY};
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
@@ -253,8 +278,11 @@ static double write_lane(const fitter *f, const mote_cert_tree *tree,
             mote_range_widen(&product[k], (weight_of(f->skin, vertex, bone) - offset) * z[k]);
     }
     for (int k = 0; k < 3; ++k)
-        sum += mote_range_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
-    return sum;
+        settle(&product[k], &row[SHIFT + 2 * k][lane], &row[SPREAD + k][lane]);
+    int32_t sum = 0;
+    for (size_t i = 0; i < NUMBERS; ++i)
+        sum += abs(row[i][lane]);
+    return UNIT * sum;
 }
 
 static void fit_leaf(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
@@ -303,10 +331,10 @@ static bool has_row(const fitter *f, uint16_t bone)
 {
     if (f->convex)
         return true;
-    const mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
-    float most = 0; /* a residual is more than 0 wherever it is written */
+    const int16_t *residual = f->rows[bone].row.leaf[RESIDUAL];
+    int16_t most = 0; /* a residual is more than 0 wherever it is written */
     for (size_t l = 0; l < WIDTH; ++l)
-        most = row->residual[l] > most ? row->residual[l] : most;
+        most = residual[l] > most ? residual[l] : most;
     return most > 0;
 }
 
@@ -320,6 +348,17 @@ static uint32_t list_rows(fitter *f)
             f->of_block[count++] = f->of_block[i];
     }
     return count;
+}
+
+static void pack(const number numbers[NUMBERS], mote_cert_strip *to)
+{
+    for (size_t i = 0; i < NUMBERS / 2; ++i) {
+        mote_skin_pairs pairs;
+        for (size_t l = 0; l < WIDTH; ++l)
+            pairs[l] =
+                (uint32_t)(uint16_t)numbers[2 * i][l] << 16 | (uint16_t)numbers[2 * i + 1][l];
+        memcpy(to[i], pairs, sizeof pairs);
+    }
 }
 
 mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_block *block)
@@ -343,7 +382,11 @@ mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_blo
         active[l] = l < block->children ? f->reference[l] : f->reference[0];
     for (uint32_t i = 0; i < count; ++i) {
         active[first + i] = f->of_block[i];
-        memcpy(strip + 1 + strips * i, &f->rows[f->of_block[i]].row, bytes);
+        const bone_rows *own = &f->rows[f->of_block[i]];
+        if (f->convex)
+            memcpy(strip + 1 + strips * i, &own->row.convex, bytes);
+        else
+            pack(own->row.leaf, strip + 1 + strips * i);
     }
     if (f->morphs)
         mote_morph_fit_store(f->morphs, strip + 1 + strips * count, active + first + count);
