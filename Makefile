@@ -159,7 +159,8 @@ auto: build
 AVX2 ?= yes
 .PHONY: ratios
 ratios: build $(if $(filter yes,$(AVX2)),build-avx2)
-	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios)
+	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios) \
+	    $(if $(RECORD),docs/architecture.md)
 
 .PHONY: build-avx2
 build-avx2: deps

@@ -111,6 +111,7 @@ static bool measure_all(mote_certificate *c, const pair *p)
 {
     mote_cert_near near;
     exact_face exact[2][MOTE_CERT_LEAF_TRIANGLES];
+    ++c->compared;
     mote_cert_hulls_near(&p->hulls, c->need, c->side[0].facing_world, &near);
     uint32_t wanted = 0;
     for (uint32_t left = near.used; left; left &= left - 1)

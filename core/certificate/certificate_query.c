@@ -202,6 +202,7 @@ static void prove(mote_certificate *c)
 static void begin(mote_certificate *c, double enough)
 {
     memset(&c->counters, 0, sizeof c->counters);
+    c->compared = 0;
     c->enough = enough;
     c->slack = c->options.slack * c->options.length;
     c->restarts = 0;

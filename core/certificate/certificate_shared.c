@@ -46,3 +46,8 @@ void mote_cert_workspace_bounds(mote_certificate *workspace, mote_cert_tree *tre
     *low = mote_add_scaled(origin, unit, mote_vec3_make(least[0], least[1], least[2]));
     *high = mote_add_scaled(origin, unit, mote_vec3_make(most[0], most[1], most[2]));
 }
+
+uint64_t mote_certificate_compared(const mote_certificate *certificate)
+{
+    return certificate->compared;
+}

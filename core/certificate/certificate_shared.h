@@ -28,6 +28,10 @@ void mote_cert_workspace_destroy(mote_certificate *workspace);
 /* Bytes of heap held, without the trees. */
 size_t mote_cert_workspace_bytes(const mote_certificate *workspace);
 
+/* Pairs of leaves of the last query whose faces were compared one by one: a great part of its
+   time where there are any. */
+uint64_t mote_certificate_compared(const mote_certificate *certificate);
+
 /* Answers for two bodies whose trees are two of the workspace's (the same one twice is
    allowed), as mote_certificate_query does. No allocation. */
 void mote_cert_workspace_query(mote_certificate *workspace, mote_cert_tree *const trees[2],

@@ -34,6 +34,7 @@ struct mote_certificate {
     mote_cert_memory memory;
     uint32_t direction_stamp; /* of memory.direction */
     mote_counters counters;
+    uint64_t compared; /* pairs of leaves whose faces were compared one by one */
 };
 
 /* certificate_deform.c */

@@ -86,7 +86,7 @@ TEST(auto_chooses_by_the_deformation)
 {
     int gentle = 0, hard = 0;
     gentle_then_hard(0.001, &gentle);
-    gentle_then_hard(1.5, &hard);
+    gentle_then_hard(4, &hard);
     assert_in_range(gentle, 0, 30);
     assert_in_range(hard, 90, 120);
 }
