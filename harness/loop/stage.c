@@ -35,7 +35,8 @@ mote_status mote_stage_create(const mote_subject *subject, const mote_method_cho
         if (mote_body_is_given(setup.shapes[k]))
             return mote_fail(
                 MOTE_EUNSUPPORTED,
-                "a closed loop needs fields, and of %s %u only positions are given; "
+                "a closed loop moves each body as its contacts tell and deforms it there by a "
+                "field, but of %s %u only positions are given, which are where it goes; "
                 "measure it with `mote run`",
                 subject->bodies ? "shape" : "body", subject->bodies ? k + 1 : k);
     }
