@@ -13,7 +13,7 @@
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
 #   make auto [PROFILE=quick|full] [OUT=DIR]         auto beside certified and stream in every scenario
-#   make ratios [OUT=DIR] [AVX2=no]                  stream's time to the box tree's and FCL's
+#   make ratios [OUT=DIR] [AVX2=no] [RECORD=1]       stream's time to the box tree's and FCL's
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make oracle METHOD=NAME [PLUGIN=FILE.so]          any method's answers on frames, against exact ones
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best

@@ -6,7 +6,7 @@
 # and the three scenarios in which stream is least ahead. The methods take turns within a run; of each frame the least
 # time of all replicates counts, and of these the median (least.awk). Prints a line a case, and writes the same to
 # OUT/ratios.txt; ends with 5 where a case has no line. FCL is asked in a tenth of the frames. PAGE: a document that gets
-# the table, between two lines of marks. ONLY: a pattern of cases' names. REPLICATES: of each (5).
+# the table of a whole run, between two lines of marks. ONLY: a pattern of cases' names. REPLICATES: of each (5).
 set -eu
 ours=$1
 avx2=$2
@@ -79,7 +79,7 @@ done
 for name in twist fast-100 jump still fast-5; do
     ! wanted "$name" || compare "$name" "$ours" "$name"
 done
-if [ -n "${4-}" ] && [ $failed -eq 0 ]; then
+if [ -n "${4-}" ] && [ -z "${ONLY-}" ] && [ $failed -eq 0 ]; then
     . "$(dirname "$0")/marked.sh"
     MANIFEST=$(find "$top" -maxdepth 2 -name manifest.json | sort | head -n 1)
     awk 'NR == 1 { print "| case | stream, us a frame | aabb-tree | best FCL | to the tree | to FCL |\n| --- | ---: | ---: | ---: | ---: | ---: |" }
