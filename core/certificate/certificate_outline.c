@@ -16,9 +16,7 @@
    (certificate_fitted.c). */
 static void write_ends(const mote_cert_node *node, mote_cert_outline_row *row)
 {
-    row->children = node->block->children;
     for (size_t l = 0; l < WIDTH; ++l) {
-        row->below[l] = 0;
         for (size_t r = 0; r < 3; ++r) {
             const float half = (fabsf(node->axis[0][r][l]) + fabsf(node->axis[1][r][l]) +
                                 fabsf(node->axis[2][r][l])) +
@@ -30,11 +28,53 @@ static void write_ends(const mote_cert_node *node, mote_cert_outline_row *row)
     }
 }
 
+static float least_of(const float x[WIDTH])
+{
+    float least = x[0];
+    for (size_t l = 1; l < WIDTH; ++l)
+        least = x[l] < least ? x[l] : least;
+    return least;
+}
+
+/* Gives the children of block i rows of their own, as far as there is room. Returns whether all
+   have one. */
+static bool open_children(const mote_cert_tree *tree, const mote_cert_block **blocks,
+                          uint32_t *count, uint32_t i, mote_cert_outline_row *row)
+{
+    const mote_cert_block *block = blocks[i];
+    bool all = true;
+    row->children = block->children;
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const bool opens =
+            l < block->children && block->child[l] >= 0 && *count < MOTE_CERT_OUTLINE_BLOCKS;
+        row->below[l] = opens ? (uint8_t)*count : 0;
+        if (opens)
+            blocks[(*count)++] = &tree->blocks[block->child[l]];
+        else
+            all = all && l >= block->children;
+    }
+    return all;
+}
+
+/* The boxes of a row whose children all have rows: around the boxes in these. */
+static void surround(mote_cert_outline *outline, mote_cert_outline_row *row)
+{
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const bool there = l < row->children;
+        const mote_cert_outline_row *below = &outline->rows[row->below[l]];
+        for (size_t r = 0; r < 3; ++r) {
+            row->low[r][l] = there ? least_of(below->low[r]) : NOWHERE;
+            row->high[r][l] = there ? mote_cert_largest(below->high[r]) : -NOWHERE;
+        }
+    }
+}
+
 void mote_cert_workspace_outline(mote_certificate *workspace, mote_cert_tree *tree,
                                  const mote_body_state *state, mote_cert_outline *outline)
 {
     mote_cert_side *side = &workspace->side[0];
     const mote_cert_block *blocks[MOTE_CERT_OUTLINE_BLOCKS] = {tree->blocks};
+    bool surrounds[MOTE_CERT_OUTLINE_BLOCKS];
     mote_cert_node node = {.boxes = true};
     uint32_t count = 1;
     /* Relative to the middle of the body, where single precision loses least. */
@@ -42,17 +82,17 @@ void mote_cert_workspace_outline(mote_certificate *workspace, mote_cert_tree *tr
     side->tree = tree;
     mote_cert_side_begin(side, state, outline->origin);
     outline->bound = side->bound;
-    for (uint32_t i = 0; i < count; ++i) {
-        mote_cert_outline_row *row = &outline->rows[i];
-        node.block = blocks[i];
-        tree->bounds->boxes(side, blocks[i], &node);
-        write_ends(&node, row);
-        for (size_t l = 0; l < row->children && count < MOTE_CERT_OUTLINE_BLOCKS; ++l) {
-            if (blocks[i]->child[l] < 0)
-                continue;
-            row->below[l] = (uint8_t)count;
-            blocks[count++] = &tree->blocks[blocks[i]->child[l]];
+    for (uint32_t i = 0; i < count; ++i)
+        surrounds[i] = open_children(tree, blocks, &count, i, &outline->rows[i]);
+    while (count-- > 0) { /* children are behind their parents */
+        mote_cert_outline_row *row = &outline->rows[count];
+        if (surrounds[count]) {
+            surround(outline, row);
+            continue;
         }
+        node.block = blocks[count];
+        tree->bounds->boxes(side, node.block, &node);
+        write_ends(&node, row);
     }
 }
 
