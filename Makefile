@@ -21,7 +21,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make characters [MODELS=DIR]                     which animated files are read as characters
-#   make character-speed [PROFILE=quick|full] [OUT=]  characters: certified beside aabb-tree and FCL
+#   make character-speed [PROFILE=quick|full] [RECORD=1] [OUT=]  characters: certified, aabb-tree, FCL
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
@@ -195,8 +195,10 @@ readers: program-readers deps-readers
 characters: program-characters deps-readers
 	@$(BUILD)/tests/characters $(call quoted,$(MODELS))
 
+# RECORD=1: into the page of characters.
 character-speed: build
-	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed)
+	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed) \
+	    $(if $(RECORD),docs/characters.md)
 
 tune: build
 	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)
