@@ -1,3 +1,5 @@
+#include "core/certificate/certificate.h"
+#include "core/skin/skin.h"
 #include "harness/scene/bodies.h"
 #include "harness/scene/scenario.h"
 #include "harness/scene/scenario_move.h"
@@ -217,5 +219,28 @@ TEST(mote_scenario_pair_of_characters_plays_their_clips)
         fail_msg("%s", mote_error_text());
     assert_string_equal(s->name, "bar-bar");
     assert_true(s->motion->body[0].player && s->motion->body[1].player);
+    mote_scenario_destroy(s);
+}
+
+/* 110 B a vertex beyond the rest mesh: trees, a query's workspace and the skin itself, of which
+   the header says 4 bytes a vertex and 6 a weight. */
+TEST(certificate_of_a_character_takes_at_most_110_bytes_a_vertex)
+{
+    mote_scenario *s = NULL;
+    assert_int_equal(mote_scenario_load("bison-15k", &s), MOTE_OK);
+    const mote_body *const bodies[2] = {&s->body[0], &s->body[1]};
+    const mote_certificate_options options = mote_default_certificate_options(s->length);
+    mote_certificate *c = NULL;
+    assert_int_equal(mote_certificate_create(bodies, &options, &c), MOTE_OK);
+    double vertices = 0, bytes = (double)mote_certificate_bytes(c);
+    for (int b = 0; b < 2; ++b) {
+        const uint32_t count = bodies[b]->mesh->vertex_count;
+        vertices += count;
+        bytes +=
+            4 * (double)count + 6 * (double)mote_field_skin(bodies[b]->field)->start[count];
+    }
+    assert_true(bytes <= 110 * vertices);
+    assert_true(bytes > 50 * vertices);
+    mote_certificate_destroy(c);
     mote_scenario_destroy(s);
 }
