@@ -39,17 +39,18 @@ typedef struct mote_certificate_options {
     bool plane;        /* the plane pass */
     bool directions;   /* leaf pairs are tested along directions before their triangles */
     uint32_t restarts; /* the traversal starts again at most this often after an improvement */
+    uint32_t threads;  /* 2 or more: the two trees are built side by side, by two threads */
 } mote_certificate_options;
 
 /* The defaults: a start from the last witnesses, no slack, no limit of box tests, nothing
-   switched off. length > 0: L of the pair. */
+   switched off, one thread. length > 0: L of the pair. */
 mote_certificate_options mote_default_certificate_options(double length);
 
-/* Builds both trees: O(t log t), about 1 s a million triangles. MOTE_EINVAL for a skin of
-   another mesh; MOTE_ENOMEM. options are not checked; change the defaults only within their
-   ranges. The bodies are borrowed; a change of their fields or rest meshes needs a new
-   certificate. The caller destroys *certificate;
-   one thread at a time may use it. */
+/* Builds both trees: O(t log t), about 0.5 s a million triangles, the same bits with any number
+   of threads. MOTE_EINVAL for a skin of another mesh; MOTE_ENOMEM, also where a second thread
+   cannot be started. options are not checked; change the defaults only within their ranges. The
+   bodies are borrowed; a change of their fields or rest meshes needs a new certificate. The
+   caller destroys *certificate; one thread at a time may use it. */
 mote_status mote_certificate_create(const mote_body *const body[2],
                                     const mote_certificate_options *options,
                                     mote_certificate **certificate);

@@ -1,6 +1,43 @@
 #include "core/certificate/certificate_box.h"
+#include "core/base/clones.h"
 
 #include <float.h>
+
+/* Positions of some vertices by coordinate, in the tree's units. The last group of MOTE_LANES
+   is filled up with copies of the last vertex. */
+typedef struct gathered {
+    double x[3][MOTE_CERT_FIT_CHUNK];
+    size_t count; /* a multiple of MOTE_LANES */
+} gathered;
+
+/* Gathers each stride-th of the first `count` vertices, 1 .. MOTE_CERT_FIT_CHUNK in all. */
+static void gather(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                   size_t stride, gathered *g)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < count; i += stride, ++k) {
+        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
+        g->x[0][k] = x.x;
+        g->x[1][k] = x.y;
+        g->x[2][k] = x.z;
+    }
+    for (; k % MOTE_LANES != 0; ++k) {
+        for (int c = 0; c < 3; ++c)
+            g->x[c][k] = g->x[c][k - 1];
+    }
+    g->count = k;
+}
+
+/* Every how many vertices one is taken so that there are at most MOTE_CERT_FIT_CHUNK. */
+static size_t sample_stride(size_t count)
+{
+    return (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
+}
+
+static size_t chunk_of(size_t left)
+{
+    return left < MOTE_CERT_FIT_CHUNK ? left : MOTE_CERT_FIT_CHUNK;
+}
 
 /* One Jacobi rotation that makes a[p][q] zero; v gathers the rotations. */
 static void jacobi_rotate(double a[3][3], double v[3][3], int p, int q)
@@ -80,17 +117,6 @@ static void spread(const mote_cert_tree *tree, const uint32_t *vertices, size_t 
     matrix[1][2] = matrix[2][1] = yz * n - mean.y * mean.z;
 }
 
-/* z of a vertex, held within the box. */
-static inline void box_coordinates(const mote_cert_box *box, const double inverse[3],
-                                   mote_vec3 x, double z[3])
-{
-    const mote_vec3 d = mote_sub(x, box->centre);
-    for (int k = 0; k < 3; ++k) {
-        const double value = mote_dot(d, box->half[k]) * inverse[k];
-        z[k] = value < -1 ? -1 : value > 1 ? 1 : value;
-    }
-}
-
 static inline void inverse_squares(const mote_cert_box *box, double inverse[3])
 {
     for (int k = 0; k < 3; ++k)
@@ -101,33 +127,106 @@ void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3
 {
     double inverse[3];
     inverse_squares(box, inverse);
-    box_coordinates(box, inverse, x, z);
+    const mote_vec3 d = mote_sub(x, box->centre);
+    for (int k = 0; k < 3; ++k) {
+        const double value = mote_dot(d, box->half[k]) * inverse[k];
+        z[k] = value < -1 ? -1 : value > 1 ? 1 : value;
+    }
+}
+
+/* The same of the gathered vertices from `first` on, MOTE_LANES of them. */
+MOTE_INLINE void box_coordinates(const mote_cert_box *box, const double inverse[3],
+                                 const gathered *g, size_t first, double z[3][MOTE_LANES])
+{
+    const mote_vec3 c = box->centre;
+    for (size_t k = 0; k < 3; ++k) {
+        const mote_vec3 h = box->half[k];
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const double value =
+                ((g->x[0][first + l] - c.x) * h.x + (g->x[1][first + l] - c.y) * h.y +
+                 (g->x[2][first + l] - c.z) * h.z) *
+                inverse[k];
+            const double above = value < -1 ? -1 : value;
+            z[k][l] = above > 1 ? 1 : above;
+        }
+    }
+}
+
+MOTE_CLONES
+static void all_coordinates(const mote_cert_box *box, const gathered *g,
+                            double z[3][MOTE_CERT_FIT_CHUNK])
+{
+    double inverse[3];
+    inverse_squares(box, inverse);
+    for (size_t i = 0; i < g->count; i += MOTE_LANES) {
+        double here[3][MOTE_LANES];
+        box_coordinates(box, inverse, g, i, here);
+        for (size_t k = 0; k < 3; ++k) {
+            MOTE_LANE_LOOP
+            for (size_t l = 0; l < MOTE_LANES; ++l)
+                z[k][i + l] = here[k][l];
+        }
+    }
+}
+
+size_t mote_cert_box_sample(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                            const mote_cert_box *box, size_t stride,
+                            double z[3][MOTE_CERT_FIT_CHUNK])
+{
+    gathered g;
+    gather(tree, vertices, count, stride, &g);
+    all_coordinates(box, &g, z);
+    return (count + stride - 1) / stride;
+}
+
+/* Raises the largest z_i + z_j, z_i - z_j, z_j - z_i and -z_i - z_j of each pair of axes. */
+MOTE_CLONES
+static void raise_sums(const mote_cert_box *box, const gathered *g,
+                       double most[3][4][MOTE_LANES])
+{
+    static const int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    double inverse[3];
+    inverse_squares(box, inverse);
+    for (size_t i = 0; i < g->count; i += MOTE_LANES) {
+        double z[3][MOTE_LANES];
+        box_coordinates(box, inverse, g, i, z);
+        for (size_t k = 0; k < 3; ++k) {
+            const double *x = z[axes[k][0]];
+            const double *y = z[axes[k][1]];
+            MOTE_LANE_LOOP
+            for (size_t l = 0; l < MOTE_LANES; ++l) {
+                const double sums[4] = {x[l] + y[l], x[l] - y[l], y[l] - x[l], -x[l] - y[l]};
+                for (size_t q = 0; q < 4; ++q)
+                    most[k][q][l] = sums[q] > most[k][q][l] ? sums[q] : most[k][q][l];
+            }
+        }
+    }
+}
+
+static double largest_lane(const double lane[MOTE_LANES])
+{
+    double most = lane[0];
+    for (size_t l = 1; l < MOTE_LANES; ++l)
+        most = lane[l] > most ? lane[l] : most;
+    return most;
 }
 
 void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                            const mote_cert_box *box, int32_t cut[3])
 {
-    static const int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    double inverse[3];
-    double most[3][4];
-    inverse_squares(box, inverse);
-    for (int k = 0; k < 12; ++k)
-        most[k / 4][k % 4] = -2;
-    for (size_t i = 0; i < count; ++i) {
-        double z[3];
-        box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
-        for (int k = 0; k < 3; ++k) {
-            const double a = z[axes[k][0]];
-            const double b = z[axes[k][1]];
-            const double sums[4] = {a + b, a - b, b - a, -a - b};
-            for (int q = 0; q < 4; ++q)
-                most[k][q] = sums[q] > most[k][q] ? sums[q] : most[k][q];
-        }
+    double most[3][4][MOTE_LANES];
+    for (size_t i = 0; i < 12 * (size_t)MOTE_LANES; ++i)
+        most[i / (4 * MOTE_LANES)][i / MOTE_LANES % 4][i % MOTE_LANES] = -2;
+    for (size_t i = 0; i < count; i += MOTE_CERT_FIT_CHUNK) {
+        gathered g;
+        gather(tree, vertices + i, chunk_of(count - i), 1, &g);
+        raise_sums(box, &g, most);
     }
     for (int k = 0; k < 3; ++k) {
         uint32_t word = 0;
         for (int q = 0; q < 4; ++q) {
-            const double empty = 2 - most[k][q];
+            const double empty = 2 - largest_lane(most[k][q]);
             /* slightly less, so that float rounding cannot make it too large when used */
             const double whole = floor((empty < 1 ? empty : 1) * 255 - 0.01);
             word |= (whole > 0 ? (uint32_t)whole : 0) << (8 * q);
@@ -136,44 +235,96 @@ void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices,
     }
 }
 
+/* Raises the largest squared distance of a vertex from where its coordinates place it. */
+MOTE_CLONES
+static void raise_leak(const mote_cert_box *box, const gathered *g, double worst[MOTE_LANES])
+{
+    double inverse[3];
+    inverse_squares(box, inverse);
+    const mote_vec3 c = box->centre;
+    const mote_vec3 *h = box->half;
+    for (size_t i = 0; i < g->count; i += MOTE_LANES) {
+        double z[3][MOTE_LANES];
+        box_coordinates(box, inverse, g, i, z);
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const double a = z[0][l];
+            const double b = z[1][l];
+            const double d = z[2][l];
+            const double x = (((c.x + a * h[0].x) + b * h[1].x) + d * h[2].x) - g->x[0][i + l];
+            const double y = (((c.y + a * h[0].y) + b * h[1].y) + d * h[2].y) - g->x[1][i + l];
+            const double w = (((c.z + a * h[0].z) + b * h[1].z) + d * h[2].z) - g->x[2][i + l];
+            const double out = x * x + y * y + w * w;
+            worst[l] = out > worst[l] ? out : worst[l];
+        }
+    }
+}
+
 /* How far vertices stick out of the box since its centre and axes were rounded: measured, not
    estimated. */
 static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                          const mote_cert_box *box)
 {
-    double inverse[3];
-    inverse_squares(box, inverse);
-    double worst = 0;
-    for (size_t i = 0; i < count; ++i) {
-        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
-        double z[3];
-        box_coordinates(box, inverse, x, z);
-        mote_vec3 inside = box->centre;
-        for (int k = 0; k < 3; ++k)
-            inside = mote_add_scaled(inside, z[k], box->half[k]);
-        const double out = mote_distance_squared(inside, x);
-        worst = out > worst ? out : worst;
+    double worst[MOTE_LANES] = {0};
+    for (size_t i = 0; i < count; i += MOTE_CERT_FIT_CHUNK) {
+        gathered g;
+        gather(tree, vertices + i, chunk_of(count - i), 1, &g);
+        raise_leak(box, &g, worst);
     }
-    worst = sqrt(worst);
-    tree->leak = worst > tree->leak ? worst : tree->leak;
+    const double most = sqrt(largest_lane(worst));
+    tree->leak = most > tree->leak ? most : tree->leak;
 }
 
-/* The area of the rectangle along u and v around the vertices, or around a sample of them. */
-static double area_along(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                         mote_vec3 u, mote_vec3 v)
+/* The ends of the gathered vertices along some directions. */
+typedef struct ends {
+    double low[3][MOTE_LANES], high[3][MOTE_LANES];
+} ends;
+
+static ends no_ends(void)
 {
-    const size_t stride = (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
-    double low[2] = {DBL_MAX, DBL_MAX};
-    double high[2] = {-DBL_MAX, -DBL_MAX};
-    for (size_t i = 0; i < count; i += stride) {
-        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
-        const double p[2] = {mote_dot(x, u), mote_dot(x, v)};
-        for (int k = 0; k < 2; ++k) {
-            low[k] = p[k] < low[k] ? p[k] : low[k];
-            high[k] = p[k] > high[k] ? p[k] : high[k];
+    ends e;
+    for (size_t l = 0; l < MOTE_LANES; ++l) {
+        for (size_t k = 0; k < 3; ++k) {
+            e.low[k][l] = DBL_MAX;
+            e.high[k][l] = -DBL_MAX;
         }
     }
-    return (high[0] - low[0]) * (high[1] - low[1]);
+    return e;
+}
+
+MOTE_CLONES
+static void widen_ends(const gathered *g, const mote_vec3 *axes, size_t count, ends *e)
+{
+    for (size_t i = 0; i < g->count; i += MOTE_LANES) {
+        for (size_t k = 0; k < count; ++k) {
+            const mote_vec3 u = axes[k];
+            MOTE_LANE_LOOP
+            for (size_t l = 0; l < MOTE_LANES; ++l) {
+                const double p =
+                    g->x[0][i + l] * u.x + g->x[1][i + l] * u.y + g->x[2][i + l] * u.z;
+                e->low[k][l] = p < e->low[k][l] ? p : e->low[k][l];
+                e->high[k][l] = p > e->high[k][l] ? p : e->high[k][l];
+            }
+        }
+    }
+}
+
+static double low_of(const ends *e, size_t k)
+{
+    double least = e->low[k][0];
+    for (size_t l = 1; l < MOTE_LANES; ++l)
+        least = e->low[k][l] < least ? e->low[k][l] : least;
+    return least;
+}
+
+/* The area of the rectangle along u and v around the gathered vertices. */
+static double area_along(const gathered *g, mote_vec3 u, mote_vec3 v)
+{
+    const mote_vec3 axes[2] = {u, v};
+    ends e = no_ends();
+    widen_ends(g, axes, 2, &e);
+    return (largest_lane(e.high[0]) - low_of(&e, 0)) *
+           (largest_lane(e.high[1]) - low_of(&e, 1));
 }
 
 /* Turns the two main axes about the third so that the box is smallest: where a patch is about
@@ -190,11 +341,13 @@ static void turn_axes(const mote_cert_tree *tree, const uint32_t *vertices, size
         {0.15643446504023087, 0.98768834059513777}};
     const mote_vec3 a = axes[0];
     const mote_vec3 b = axes[1];
-    double least = area_along(tree, vertices, count, a, b);
+    gathered g;
+    gather(tree, vertices, count, sample_stride(count), &g);
+    double least = area_along(&g, a, b);
     for (int i = 0; i < 9; ++i) {
         const mote_vec3 u = mote_add_scaled(mote_scale(a, turns[i][0]), turns[i][1], b);
         const mote_vec3 v = mote_add_scaled(mote_scale(b, turns[i][0]), -turns[i][1], a);
-        const double area = area_along(tree, vertices, count, u, v);
+        const double area = area_along(&g, u, v);
         if (area < 0.98 * least) {
             least = area;
             axes[0] = u;
@@ -210,15 +363,16 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
     spread(tree, vertices, count, matrix);
     mote_cert_principal_axes(matrix, axes);
     turn_axes(tree, vertices, count, axes);
-    double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX};
-    double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
-    for (size_t i = 0; i < count; ++i) {
-        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
-        for (int k = 0; k < 3; ++k) {
-            const double p = mote_dot(x, axes[k]);
-            low[k] = p < low[k] ? p : low[k];
-            high[k] = p > high[k] ? p : high[k];
-        }
+    ends e = no_ends();
+    for (size_t i = 0; i < count; i += MOTE_CERT_FIT_CHUNK) {
+        gathered g;
+        gather(tree, vertices + i, chunk_of(count - i), 1, &g);
+        widen_ends(&g, axes, 3, &e);
+    }
+    double low[3], high[3];
+    for (size_t k = 0; k < 3; ++k) {
+        low[k] = low_of(&e, k);
+        high[k] = largest_lane(e.high[k]);
     }
     int order[3] = {0, 1, 2};
     for (int i = 1; i < 3; ++i) {

@@ -39,6 +39,13 @@ void mote_cert_solve(const double a[4][4], double b[4]);
 /* Where there are more vertices, axes and slopes are found from a sample of about this many. */
 #define MOTE_CERT_FIT_CHUNK 512
 
+/* z of each stride-th of count vertices, MOTE_CERT_FIT_CHUNK of them at most, and copies of the
+   last one up to a multiple of MOTE_LANES; returns how many there are without the copies. The
+   bits of mote_cert_box_coordinates. No allocation. */
+size_t mote_cert_box_sample(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                            const mote_cert_box *box, size_t stride,
+                            double z[3][MOTE_CERT_FIT_CHUNK]);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
    the leaves up to blocks of eight, so that only the root may have fewer children. */
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_fitted.h"
+#include "core/certificate/certificate_box.h"
 #include "core/certificate/certificate_split.h"
 
 #include <float.h>
@@ -75,13 +76,13 @@ static bool add_groups(builder *b, const mote_cert_box *box, uint32_t vertex_cou
     if (!groups)
         return false;
     tree->groups = groups;
+    double z[3][MOTE_CERT_FIT_CHUNK];
+    (void)mote_cert_box_sample(tree, b->list, vertex_count, box, 1, z);
     for (uint32_t i = 0; i < count * MOTE_CERT_WIDTH; ++i) {
-        const uint32_t v = b->list[i < vertex_count ? i : vertex_count - 1];
-        double z[3];
-        mote_cert_box_coordinates(box, mote_cert_tree_position(tree, v), z);
+        const uint32_t place = i < vertex_count ? i : vertex_count - 1;
         mote_cert_group *group = &tree->groups[tree->group_count + i / MOTE_CERT_WIDTH];
         for (int k = 0; k < 3; ++k)
-            group->z[k][i % MOTE_CERT_WIDTH] = (float)z[k];
+            group->z[k][i % MOTE_CERT_WIDTH] = (float)z[k][place];
     }
     tree->group_count += count;
     return true;

@@ -1,9 +1,11 @@
 /* Allocating what one query needs: for a certificate with trees of its own, or for a workspace
    that works on the trees of others. */
 #include "core/certificate/certificate_shared.h"
+#include "core/base/pool.h"
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,18 +100,59 @@ static mote_status create(const mote_certificate_options *options, double scale,
     return status;
 }
 
+/* Two trees to be built, and how that went: texts of failures belong to the thread they happen
+   in. */
+typedef struct order {
+    const mote_body *const *bodies;
+    mote_cert_tree_options plan;
+    mote_cert_tree **trees;
+    mote_status status[2];
+    char text[2][256];
+} order;
+
+static void build_range(void *context, uint32_t worker, size_t first, size_t end)
+{
+    order *o = context;
+    (void)worker;
+    for (size_t i = first; i < end; ++i) {
+        o->status[i] = mote_cert_tree_create(o->bodies[i], &o->plan, &o->trees[i]);
+        if (o->status[i] != MOTE_OK)
+            (void)snprintf(o->text[i], sizeof o->text[i], "%s", mote_error_text());
+    }
+}
+
+/* Builds the trees of both bodies. trees: NULL where they fail. */
+static mote_status build_trees(const mote_body *const body[2],
+                               const mote_certificate_options *options,
+                               mote_cert_tree *trees[2])
+{
+    order o = {.bodies = body,
+               .plan = {.length = options->length,
+                        .width = options->width,
+                        .linear_fits = options->linear_fits},
+               .trees = trees};
+    if (options->threads < 2) {
+        const mote_status status = mote_cert_tree_create(body[0], &o.plan, &trees[0]);
+        return status == MOTE_OK ? mote_cert_tree_create(body[1], &o.plan, &trees[1]) : status;
+    }
+    mote_pool *pool;
+    const mote_status status = mote_pool_create(2, &pool);
+    if (status != MOTE_OK)
+        return status;
+    mote_pool_run(pool, build_range, &o, 2, 1);
+    mote_pool_destroy(pool);
+    const int failed = o.status[0] != MOTE_OK ? 0 : 1;
+    return o.status[failed] == MOTE_OK ? MOTE_OK
+                                       : mote_fail(o.status[failed], "%s", o.text[failed]);
+}
+
 mote_status mote_certificate_create(const mote_body *const body[2],
                                     const mote_certificate_options *options,
                                     mote_certificate **certificate)
 {
-    const mote_cert_tree_options plan = {.length = options->length,
-                                         .width = options->width,
-                                         .linear_fits = options->linear_fits};
     mote_cert_tree *trees[2] = {NULL, NULL};
     mote_certificate *made = NULL;
-    mote_status status = mote_cert_tree_create(body[0], &plan, &trees[0]);
-    if (status == MOTE_OK)
-        status = mote_cert_tree_create(body[1], &plan, &trees[1]);
+    mote_status status = build_trees(body, options, trees);
     if (status == MOTE_OK) {
         const capacity own[2] = {capacity_for(&trees[0], 1), capacity_for(&trees[1], 1)};
         status = create(options, trees[0]->scale, own, &made);

@@ -2,6 +2,8 @@
    box, and their residuals. Work and memory follow the functions that are not 0 at a vertex,
    where the field says which these are. */
 #include "core/certificate/certificate_fitted.h"
+#include "core/certificate/certificate_box.h"
+#include "core/base/clones.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -9,13 +11,20 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
-/* One function over the child at hand. */
-typedef struct fit {
-    double right[4]; /* of the normal equations; then the solution */
-    double slope[3]; /* as stored */
-    double low, high;
-    bool active; /* not 0 at every vertex */
-} fit;
+/* Values of functions that there is room for at once: those of MOTE_CERT_FIT_CHUNK vertices
+   with 64 functions, of fewer vertices with more functions. */
+#define VALUES ((size_t)64 * MOTE_CERT_FIT_CHUNK)
+
+/* The functions over the child at hand, in rows by place. */
+typedef struct fits {
+    double *right[4]; /* of the normal equations; then the solution */
+    double *slope[3]; /* as stored */
+    double *low, *high;
+    double *most; /* the largest size; 0: the function is 0 at every vertex */
+    double *rows; /* [ROWS][rounded up functions]: all of these */
+} fits;
+
+enum { ROWS = 4 + 3 + 3 };
 
 typedef struct fitter {
     bool linear;
@@ -24,11 +33,15 @@ typedef struct fitter {
        its vertices. */
     uint32_t *function; /* [functions] ascending */
     uint32_t count;
-    uint32_t *place;     /* [functions] sparse: the place of a function in that list */
-    uint32_t *stamp;     /* [functions] sparse: the last child that had the function */
-    uint32_t child;      /* number of the child at hand */
-    fit *fits;           /* [functions] by place in that list */
-    double *phi;         /* [functions, padded] at one vertex, by place */
+    uint32_t *place; /* [functions] sparse: the place of a function in that list */
+    uint32_t *stamp; /* [functions] sparse: the last child that had the function */
+    uint32_t child;  /* number of the child at hand */
+    fits fits;
+    double *phi; /* values by place at vertices of the child, in rows */
+    size_t phi_room;
+    size_t length;       /* of such a row: count rounded up to whole lanes */
+    size_t at_once;      /* vertices whose rows phi has room for, at most MOTE_CERT_FIT_CHUNK */
+    bool filled;         /* phi has the rows of all of the child's vertices */
     uint32_t *at_vertex; /* [most] sparse: functions at one vertex, and their values */
     double *value;       /* [most] */
     mote_cert_row *row;  /* [functions] of the block at hand */
@@ -37,13 +50,18 @@ typedef struct fitter {
     bool *is_active; /* [functions] */
 } fitter;
 
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 void mote_cert_fitted_stop(void *state)
 {
     fitter *f = state;
     free(f->function);
     free(f->place);
     free(f->stamp);
-    free(f->fits);
+    free(f->fits.rows);
     free(f->phi);
     free(f->at_vertex);
     free(f->value);
@@ -79,20 +97,30 @@ static void scale_basis(const fitter *f, const mote_cert_tree *tree)
     }
 }
 
+static void point_rows(fits *t, size_t length)
+{
+    double **const row[ROWS] = {&t->right[0], &t->right[1], &t->right[2], &t->right[3],
+                                &t->slope[0], &t->slope[1], &t->slope[2], &t->low,
+                                &t->high,     &t->most};
+    for (size_t i = 0; i < ROWS; ++i)
+        *row[i] = t->rows + i * length;
+}
+
 static bool allocate(fitter *f, const mote_field *field)
 {
     const size_t n = f->functions;
+    f->phi_room = field->padded > VALUES ? field->padded : VALUES;
     f->function = malloc(n * sizeof *f->function);
     f->place = malloc(n * sizeof *f->place);
     f->stamp = calloc(n, sizeof *f->stamp);
-    f->fits = malloc(n * sizeof *f->fits);
-    f->phi = malloc(field->padded * sizeof *f->phi);
+    f->fits.rows = calloc(ROWS * (size_t)field->padded, sizeof *f->fits.rows);
+    f->phi = malloc(f->phi_room * sizeof *f->phi);
     f->at_vertex = calloc(field->most, sizeof *f->at_vertex);
     f->value = calloc(field->most, sizeof *f->value);
     f->row = malloc(n * sizeof *f->row);
     f->active = malloc(n * sizeof *f->active);
     f->is_active = calloc(n, sizeof *f->is_active);
-    return f->function && f->place && f->stamp && f->fits && f->phi && f->at_vertex &&
+    return f->function && f->place && f->stamp && f->fits.rows && f->phi && f->at_vertex &&
            f->value && f->row && f->active && f->is_active;
 }
 
@@ -148,23 +176,85 @@ static void list_functions(fitter *f, const mote_cert_tree *tree, const mote_cer
         f->place[f->function[i]] = i;
 }
 
-/* The listed functions at a vertex in the tree's scale, by place. */
-static void scaled_basis(const fitter *f, const mote_cert_tree *tree, uint32_t vertex)
+/* The listed functions at a vertex in the tree's scale, by place, and zeros. */
+static void scaled_basis(const fitter *f, const mote_cert_tree *tree, uint32_t vertex,
+                         double *phi)
 {
     const mote_field *field = tree->body->field;
     const double *scale = mote_cert_scales_of(tree).scale;
     if (!field->kind->sparse) {
-        field->kind->basis(field, tree->body->mesh, vertex, f->phi);
+        field->kind->basis(field, tree->body->mesh, vertex, phi);
         for (uint32_t j = 0; j < f->functions; ++j)
-            f->phi[j] *= scale[j];
+            phi[j] *= scale[j];
         return;
     }
-    memset(f->phi, 0, f->count * sizeof *f->phi);
+    memset(phi, 0, f->length * sizeof *phi);
     const uint32_t count =
         field->kind->sparse(field, tree->body->mesh, vertex, f->at_vertex, f->value);
     for (uint32_t k = 0; k < count; ++k) {
         const uint32_t j = f->at_vertex[k];
-        f->phi[f->place[j]] = f->value[k] * scale[j];
+        phi[f->place[j]] = f->value[k] * scale[j];
+    }
+}
+
+/* Writes the rows of count vertices, every stride-th. */
+static void fill_rows(const fitter *f, const mote_cert_tree *tree, const uint32_t *vertices,
+                      size_t stride, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        scaled_basis(f, tree, vertices[i * stride], f->phi + i * f->length);
+}
+
+/* Adds the vertices of some rows to the right sides. */
+MOTE_CLONES
+static void add_rows(const double z[3][MOTE_CERT_FIT_CHUNK], size_t count,
+                     const double *restrict phi, size_t length, double *const right[4])
+{
+    for (size_t j = 0; j < length; j += MOTE_LANES) {
+        double sum[4][MOTE_LANES];
+        for (size_t r = 0; r < 4; ++r)
+            memcpy(sum[r], right[r] + j, sizeof sum[r]);
+        for (size_t i = 0; i < count; ++i) {
+            const double *restrict own = phi + i * length + j;
+            const double x = z[0][i];
+            const double y = z[1][i];
+            const double w = z[2][i];
+            MOTE_LANE_LOOP
+            for (size_t l = 0; l < MOTE_LANES; ++l) {
+                sum[0][l] += own[l];
+                sum[1][l] += x * own[l];
+                sum[2][l] += y * own[l];
+                sum[3][l] += w * own[l];
+            }
+        }
+        for (size_t r = 0; r < 4; ++r)
+            memcpy(right[r] + j, sum[r], sizeof sum[r]);
+    }
+}
+
+/* Adds to the normal equations' matrix. */
+static void add_coordinates(const double at[3][MOTE_CERT_FIT_CHUNK], size_t count,
+                            double a[4][4])
+{
+    for (size_t i = 0; i < count; ++i) {
+        const double z[4] = {1, at[0][i], at[1][i], at[2][i]};
+        for (int r = 0; r < 4; ++r) {
+            for (int c = 0; c <= r; ++c)
+                a[r][c] += z[r] * z[c];
+        }
+    }
+}
+
+static void solve_all(const fitter *f, double a[4][4])
+{
+    mote_cert_factor(a);
+    for (uint32_t j = 0; j < f->count; ++j) {
+        double right[4];
+        for (int k = 0; k < 4; ++k)
+            right[k] = f->fits.right[k][j];
+        mote_cert_solve((const double(*)[4])a, right);
+        for (int k = 0; k < 3; ++k)
+            f->fits.slope[k][j] = mote_as_float(right[k + 1]);
     }
 }
 
@@ -175,27 +265,52 @@ static void fit_slopes(fitter *f, const mote_cert_tree *tree, const mote_cert_pa
     const size_t stride = (part->count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
     double a[4][4] = {{0}};
     size_t used = 0;
-    for (size_t i = 0; i < part->count; i += stride, ++used) {
-        double z[4] = {1};
-        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, part->vertices[i]),
-                                  z + 1);
-        scaled_basis(f, tree, part->vertices[i]);
-        for (int r = 0; r < 4; ++r) {
-            for (int c = 0; c <= r; ++c)
-                a[r][c] += z[r] * z[c];
-        }
-        for (uint32_t j = 0; j < f->count; ++j) {
-            for (int r = 0; r < 4; ++r)
-                f->fits[j].right[r] += z[r] * f->phi[j];
-        }
+    for (size_t first = 0; first < part->count; first += f->at_once * stride) {
+        const uint32_t *vertices = part->vertices + first;
+        const size_t chunk = smaller(part->count - first, f->at_once * stride);
+        double at[3][MOTE_CERT_FIT_CHUNK];
+        const size_t count = mote_cert_box_sample(tree, vertices, chunk, part->box, stride, at);
+        fill_rows(f, tree, vertices, stride, count);
+        add_coordinates((const double(*)[MOTE_CERT_FIT_CHUNK])at, count, a);
+        add_rows((const double(*)[MOTE_CERT_FIT_CHUNK])at, count, f->phi, f->length,
+                 f->fits.right);
+        used += count;
     }
+    f->filled = part->count <= f->at_once;
     for (int i = 0; i < 4; ++i)
         a[i][i] += 1e-6 * (double)used; /* directions in which the vertices do not spread */
-    mote_cert_factor(a);
-    for (uint32_t j = 0; j < f->count; ++j) {
-        mote_cert_solve((const double(*)[4])a, f->fits[j].right);
-        for (int k = 0; k < 3; ++k)
-            f->fits[j].slope[k] = mote_as_float(f->fits[j].right[k + 1]);
+    solve_all(f, a);
+}
+
+/* Widens low, high and most by the vertices of some rows. */
+MOTE_CLONES
+static void widen_rows(const double z[3][MOTE_CERT_FIT_CHUNK], size_t count,
+                       const double *restrict phi, size_t length, const fits *t)
+{
+    for (size_t j = 0; j < length; j += MOTE_LANES) {
+        double g[3][MOTE_LANES], low[MOTE_LANES], high[MOTE_LANES], most[MOTE_LANES];
+        for (size_t k = 0; k < 3; ++k)
+            memcpy(g[k], t->slope[k] + j, sizeof g[k]);
+        memcpy(low, t->low + j, sizeof low);
+        memcpy(high, t->high + j, sizeof high);
+        memcpy(most, t->most + j, sizeof most);
+        for (size_t i = 0; i < count; ++i) {
+            const double *restrict own = phi + i * length + j;
+            const double x = z[0][i];
+            const double y = z[1][i];
+            const double w = z[2][i];
+            MOTE_LANE_LOOP
+            for (size_t l = 0; l < MOTE_LANES; ++l) {
+                const double value = own[l] - g[0][l] * x - g[1][l] * y - g[2][l] * w;
+                const double size = fabs(own[l]);
+                low[l] = value < low[l] ? value : low[l];
+                high[l] = value > high[l] ? value : high[l];
+                most[l] = size > most[l] ? size : most[l];
+            }
+        }
+        memcpy(t->low + j, low, sizeof low);
+        memcpy(t->high + j, high, sizeof high);
+        memcpy(t->most + j, most, sizeof most);
     }
 }
 
@@ -203,19 +318,29 @@ static void fit_slopes(fitter *f, const mote_cert_tree *tree, const mote_cert_pa
    are stored. */
 static void measure_residuals(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
 {
-    for (size_t i = 0; i < part->count; ++i) {
-        double z[3];
-        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, part->vertices[i]),
-                                  z);
-        scaled_basis(f, tree, part->vertices[i]);
-        for (uint32_t j = 0; j < f->count; ++j) {
-            fit *own = &f->fits[j];
-            const double value =
-                f->phi[j] - own->slope[0] * z[0] - own->slope[1] * z[1] - own->slope[2] * z[2];
-            own->low = value < own->low ? value : own->low;
-            own->high = value > own->high ? value : own->high;
-            own->active = own->active || fabs(f->phi[j]) > 0;
-        }
+    for (size_t first = 0; first < part->count; first += f->at_once) {
+        const uint32_t *vertices = part->vertices + first;
+        const size_t count = smaller(part->count - first, f->at_once);
+        double at[3][MOTE_CERT_FIT_CHUNK];
+        (void)mote_cert_box_sample(tree, vertices, count, part->box, 1, at);
+        if (!f->filled)
+            fill_rows(f, tree, vertices, 1, count);
+        widen_rows((const double(*)[MOTE_CERT_FIT_CHUNK])at, count, f->phi, f->length,
+                   &f->fits);
+    }
+}
+
+/* Forgets the last child. The listed functions of the one at hand are known. */
+static void begin_child(fitter *f)
+{
+    f->length = (f->count + MOTE_LANES - 1) / MOTE_LANES * MOTE_LANES;
+    f->at_once = smaller(MOTE_CERT_FIT_CHUNK, f->phi_room / (f->length + !f->length));
+    f->filled = false;
+    point_rows(&f->fits, f->length);
+    memset(f->fits.rows, 0, ROWS * f->length * sizeof *f->fits.rows);
+    for (size_t j = 0; j < f->length; ++j) {
+        f->fits.low[j] = DBL_MAX;
+        f->fits.high[j] = -DBL_MAX;
     }
 }
 
@@ -224,25 +349,29 @@ static float rounded_up(double x)
     return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
 }
 
-/* Writes the child's lane of a function's row. */
-static void write_lane(fitter *f, uint32_t function, const fit *own, size_t lane,
-                       double *largest)
+/* Writes the child's lane of the row of a listed function. */
+static void write_lane(fitter *f, uint32_t place, size_t lane, double *bounds)
 {
+    const uint32_t function = f->function[place];
+    double *largest = &bounds[function];
     mote_cert_row *row = &f->row[function];
     if (!f->is_active[function]) {
         memset(row, 0, sizeof *row);
         f->is_active[function] = true;
         f->active[f->active_count++] = (uint16_t)function;
     }
-    const double middle = mote_as_float(0.5 * (own->low + own->high));
-    const double above = own->high - middle;
-    const double below = middle - own->low;
+    const double low = f->fits.low[place];
+    const double high = f->fits.high[place];
+    const double middle = mote_as_float(0.5 * (low + high));
+    const double above = high - middle;
+    const double below = middle - low;
     row->offset[lane] = (float)middle;
     row->residual[lane] = rounded_up(above > below ? above : below);
     double bound = fabs(middle);
     for (int k = 0; k < 3; ++k) {
-        row->slope[k][lane] = (float)own->slope[k];
-        bound += fabs(own->slope[k]);
+        const double slope = f->fits.slope[k][place];
+        row->slope[k][lane] = (float)slope;
+        bound += fabs(slope);
     }
     bound += (double)row->residual[lane];
     *largest = bound > *largest ? bound : *largest;
@@ -256,15 +385,13 @@ void mote_cert_fitted_fit(void *state, mote_cert_tree *tree, const mote_cert_par
     double *bounds = mote_cert_scales_of(tree).bound;
     if (tree->body->field->kind->sparse)
         list_functions(f, tree, part);
-    for (uint32_t j = 0; j < f->count; ++j)
-        f->fits[j] = (fit){.low = DBL_MAX, .high = -DBL_MAX};
+    begin_child(f);
     if (f->linear)
         fit_slopes(f, tree, part);
     measure_residuals(f, tree, part);
     for (uint32_t j = 0; j < f->count; ++j) {
-        const uint32_t function = f->function[j];
-        if (f->fits[j].active)
-            write_lane(f, function, &f->fits[j], part->lane, &bounds[function]);
+        if (f->fits.most[j] > 0)
+            write_lane(f, j, part->lane, bounds);
     }
 }
 

@@ -15,7 +15,8 @@ mote_certificate_options mote_default_certificate_options(double length)
                                       .linear_fits = true,
                                       .plane = true,
                                       .directions = true,
-                                      .restarts = 6};
+                                      .restarts = 6,
+                                      .threads = 1};
 }
 
 /* Where the last faces have moved apart by more than this part of L, others are looked for in

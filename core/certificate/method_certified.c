@@ -6,7 +6,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { P_SEED, P_SLACK, P_BUDGET, P_WIDTH, P_FITS, P_PLANE, P_DIRECTIONS, P_RESTARTS, P_COUNT };
+enum {
+    P_SEED,
+    P_SLACK,
+    P_BUDGET,
+    P_WIDTH,
+    P_FITS,
+    P_PLANE,
+    P_DIRECTIONS,
+    P_RESTARTS,
+    P_THREADS,
+    P_COUNT
+};
 
 static const mote_parameter parameters[] = {
     [P_SEED] = {.key = "seed",
@@ -46,6 +57,12 @@ static const mote_parameter parameters[] = {
                     .fallback = "6",
                     .help =
                         "the traversal starts again at most this often after an improvement"},
+    [P_THREADS] = {.key = "build",
+                   .kind = MOTE_PARAMETER_INTEGER,
+                   .minimum = 1,
+                   .maximum = 2,
+                   .fallback = "1",
+                   .help = "threads that build the two trees"},
 };
 
 /* The choices of seed, in the table's order. */
@@ -83,6 +100,7 @@ static mote_certificate_options options_of(const mote_setup *setup)
     options.plane = !(v[P_PLANE] > 0);
     options.directions = !(v[P_DIRECTIONS] > 0);
     options.restarts = (uint32_t)v[P_RESTARTS];
+    options.threads = (uint32_t)v[P_THREADS];
     return options;
 }
 

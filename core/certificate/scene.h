@@ -57,7 +57,7 @@ typedef struct mote_scene_pair {
 /* Builds a tree for each of shape_count shapes (borrowed). shape_of[body_count]: the shape
    of each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist, a skin of
    another mesh, options out of range; MOTE_ENOMEM. The caller destroys *scene; one thread at a
-   time may use it. Cost: about 1 s a million triangles of shapes. */
+   time may use it. Cost: about 0.5 s a million triangles of shapes. */
 mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_count,
                               const uint32_t *shape_of, uint32_t body_count,
                               const mote_scene_options *options, mote_scene **scene);

@@ -49,7 +49,7 @@ class Pair(TwoBodies):
     weights_shape or None for rest.
 
     One thread at a time may use a pair: RuntimeError. ValueError where a number is not finite, a pose
-    is no rotation, or something is beyond 2^50 L. Cost: about 1 s a million faces to make.
+    is no rotation, or something is beyond 2^50 L. Cost: about 0.5 s a million faces to make.
     """
 
     def __init__(self, a: Mesh, b: Mesh, field_a: Optional[Field] = None,

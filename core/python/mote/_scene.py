@@ -39,7 +39,7 @@ class Scene(lib.Guarded):
     alone, which takes less time. threads: 1 to 256 share the work; a scene with more than one
     cannot be used in a process that was forked after it was made.
 
-    One thread at a time may use a scene: RuntimeError. Cost: about 1 s a million faces of shapes.
+    One thread at a time may use a scene: RuntimeError. Cost: about 0.5 s a million faces of shapes.
     """
 
     def __init__(self, shapes: object, bodies: object, *, tolerance: float = 0.0,

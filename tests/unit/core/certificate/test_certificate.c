@@ -67,6 +67,54 @@ TEST(query_without_a_step_equals_all_pairs)
     scene_free(&s);
 }
 
+/* Trees that two threads build give the same answers to the last bit, as many bytes and counts
+   included. */
+TEST(create_by_two_threads_gives_the_same_bits)
+{
+    scene s;
+    scene_init(&s, 24, 10, 3, true);
+    mote_certificate_options options = mote_default_certificate_options(s.length);
+    mote_certificate *one = certificate_of(&s, &options);
+    options.threads = 2;
+    mote_certificate *two = certificate_of(&s, &options);
+    assert_int_equal(mote_certificate_bytes(one), mote_certificate_bytes(two));
+    for (int k = 0; k < 40; ++k) {
+        mote_certificate_answer a, b;
+        scene_next(&s, 1.2, false);
+        mote_certificate_query(one, &s.frame, NULL, -1, &a);
+        mote_certificate_query(two, &s.frame, NULL, -1, &b);
+        assert_memory_equal(&a.distance, &b.distance, sizeof a.distance);
+        assert_memory_equal(&a.lower, &b.lower, sizeof a.lower);
+        assert_memory_equal(a.witness, b.witness, sizeof a.witness);
+        assert_memory_equal(&a.counters, &b.counters, sizeof a.counters);
+    }
+    mote_certificate_destroy(one);
+    mote_certificate_destroy(two);
+    scene_free(&s);
+}
+
+/* What one of the two threads finds wrong is said by the caller's. */
+TEST(create_by_two_threads_says_what_is_wrong)
+{
+    scene s;
+    scene_init(&s, 8, 6, 4, true);
+    mote_certificate_options options = mote_default_certificate_options(s.length);
+    options.threads = 2;
+    mote_field *given = NULL;
+    assert_int_equal(mote_field_create_given(&given), MOTE_OK);
+    for (int b = 0; b < 2; ++b) {
+        const mote_body bad = {.mesh = s.body[b].mesh, .field = given};
+        const mote_body *const bodies[2] = {b == 0 ? &bad : &s.body[0],
+                                            b == 1 ? &bad : &s.body[1]};
+        mote_certificate *c = NULL;
+        assert_int_equal(mote_certificate_create(bodies, &options, &c), MOTE_EUNSUPPORTED);
+        assert_null(c);
+        assert_non_null(strstr(mote_error_text(), "the certified query needs a field"));
+    }
+    mote_field_destroy(given);
+    scene_free(&s);
+}
+
 /* A mesh of separate triangles in a plane row: no two share a vertex, so no leaf can be as
    large as the tree prefers. */
 static mote_mesh *make_shards(uint32_t count)

@@ -69,3 +69,38 @@ TEST(box_coordinates_outside_are_held_within)
     mote_cert_box_coordinates(&box, mote_vec3_make(-7, 4.1, 1.9), z);
     assert_true(z[0] == -1 && z[1] == 1 && z[2] == -1);
 }
+
+/* Counts on both sides of whole lanes and of a full sample, and strides with a rest. */
+TEST(box_sample_equals_the_coordinates_one_by_one)
+{
+    enum { VERTICES = 1100 };
+    static mote_vec3 positions[VERTICES];
+    static uint32_t vertices[VERTICES];
+    static double z[3][MOTE_CERT_FIT_CHUNK];
+    static const size_t cases[][2] = {{1, 1},   {7, 1},   {8, 1},   {9, 1},
+                                      {511, 1}, {512, 1}, {513, 2}, {VERTICES, 3}};
+    uint64_t seed = 11;
+    for (uint32_t i = 0; i < VERTICES; ++i) {
+        vertices[i] = (i * 7) % VERTICES;
+        positions[i] =
+            mote_vec3_make(random_between(&seed, -6, 6), random_between(&seed, -6, 6),
+                           random_between(&seed, -6, 6));
+    }
+    const mote_mesh mesh = {.positions = positions, .vertex_count = VERTICES};
+    const mote_body body = {.mesh = &mesh};
+    const mote_cert_tree tree = {.body = &body, .scale = 0.5, .origin = {0.3, -0.2, 0.1}};
+    const mote_cert_box box = {.centre = {0.1, 0.2, 0.3},
+                               .half = {{1.5, 0.5, 0}, {-0.5, 1.5, 0}, {0, 0, 1.2}}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
+        const size_t count = cases[c][0], stride = cases[c][1];
+        const size_t made = mote_cert_box_sample(&tree, vertices, count, &box, stride, z);
+        assert_int_equal(made, (count + stride - 1) / stride);
+        for (size_t i = 0; i < made; ++i) {
+            double one[3];
+            mote_cert_box_coordinates(
+                &box, mote_cert_tree_position(&tree, vertices[i * stride]), one);
+            for (int k = 0; k < 3; ++k)
+                assert_memory_equal(&one[k], &z[k][i], sizeof one[k]);
+        }
+    }
+}
