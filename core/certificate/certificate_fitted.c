@@ -186,10 +186,10 @@ static void project_block(const mote_cert_side *restrict side,
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
             middle[l] += r->offset[l] * w;
-            axis0[l] += r->slope[0][l] * w;
-            axis1[l] += r->slope[1][l] * w;
-            axis2[l] += r->slope[2][l] * w;
-            width[l] += r->residual[l] * size;
+            axis0[l] += mote_cert_upper(r->slopes[l]) * w;
+            axis1[l] += mote_cert_lower(r->slopes[l]) * w;
+            axis2[l] += mote_cert_lower(r->rest[l]) * w;
+            width[l] += mote_cert_upper(r->rest[l]) * size;
         }
     }
     const float shift = side->shift;
@@ -258,10 +258,10 @@ MOTE_INLINE void add_field(const mote_cert_side *restrict side,
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
             const float f = r->offset[l];
-            const float g0 = r->slope[0][l];
-            const float g1 = r->slope[1][l];
-            const float g2 = r->slope[2][l];
-            const float m = r->residual[l];
+            const float g0 = mote_cert_upper(r->slopes[l]);
+            const float g1 = mote_cert_lower(r->slopes[l]);
+            const float g2 = mote_cert_lower(r->rest[l]);
+            const float m = mote_cert_upper(r->rest[l]);
             cx[l] += f * x;
             cy[l] += f * y;
             cz[l] += f * z;

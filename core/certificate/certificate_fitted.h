@@ -9,17 +9,36 @@
 #ifndef MOTE_CORE_CERTIFICATE_FITTED_H
 #define MOTE_CORE_CERTIFICATE_FITTED_H
 
+#include "core/base/clones.h"
 #include "core/certificate/certificate_bounds.h"
 
 /* What one basis function does to the children of a block: offset f, slopes g by axis, and the
-   largest residual m >= 0. Residuals are measured with the slopes as they are stored, so that
-   rounding the slopes loses nothing. A block has one for each function that is not 0 at all of
-   its vertices. */
+   largest residual m >= 0. A block has one for each function that is not 0 at all of its
+   vertices. Rows are most of what a query reads, so slopes and residual are kept in half a word
+   each. The float in the upper half is read with the lower half as its last bits, which costs
+   nothing; the lower half is the upper half of a float whose last bits are 0. Offset and
+   residual are measured with the slopes as they are read, so that the bounds hold as before:
+   what 8 bits of a slope leave out is in the residual. */
 typedef struct mote_cert_row {
     mote_cert_strip offset;
-    mote_cert_strip slope[3];
-    mote_cert_strip residual;
+    uint32_t slopes[MOTE_CERT_WIDTH]; /* upper half: axis 0; lower: axis 1 */
+    uint32_t rest[MOTE_CERT_WIDTH];   /* upper half: residual; lower: slope of axis 2 */
 } mote_cert_row;
+
+/* The float in either half of a word. */
+MOTE_INLINE float mote_cert_upper(uint32_t word)
+{
+    const union {
+        uint32_t bits;
+        float value;
+    } both = {word};
+    return both.value;
+}
+
+MOTE_INLINE float mote_cert_lower(uint32_t word)
+{
+    return mote_cert_upper(word << 16);
+}
 
 /* Of each basis function, as long as the field is padded. tree->fixed holds the three arrays
    side by side. */

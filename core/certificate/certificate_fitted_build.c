@@ -18,7 +18,7 @@
 /* The functions over the child at hand, in rows by place. */
 typedef struct fits {
     double *right[4]; /* of the normal equations; then the solution */
-    double *slope[3]; /* as stored */
+    double *slope[3]; /* as they are read in a query */
     double *low, *high;
     double *most; /* the largest size; 0: the function is 0 at every vertex */
     double *rows; /* [ROWS][rounded up functions]: all of these */
@@ -245,6 +245,52 @@ static void add_coordinates(const double at[3][MOTE_CERT_FIT_CHUNK], size_t coun
     }
 }
 
+/* Slopes that are smaller than this are as good as 0; and a float in an upper half that has
+   something below it is no smaller, since without an exponent it would be denormal, with which
+   some processors are slow. */
+#define TINY 0x1p-60F
+
+static uint32_t bits_of(float x)
+{
+    const union {
+        float value;
+        uint32_t bits;
+    } both = {x};
+    return both.bits;
+}
+
+/* The float nearest to x of which only the upper half is not 0, in a lower half. */
+static uint32_t lower_half(float x)
+{
+    return fabsf(x) < TINY ? 0 : (bits_of(x) + 0x8000u) >> 16;
+}
+
+/* A word with a given lower half that is nearest to x as a float. */
+static uint32_t word_nearest(float x, uint32_t lower)
+{
+    if (fabsf(x) < TINY && lower == 0)
+        return 0;
+    const uint32_t size = bits_of(fabsf(x) < TINY ? TINY : fabsf(x));
+    const uint32_t upper = (size + 0x8000u - lower) >> 16;
+    return (x < 0 ? 0x80000000u : 0) | upper << 16 | lower;
+}
+
+/* The least float with a given lower half that is at least x > 0, as a word. */
+static uint32_t word_from(float x, uint32_t lower)
+{
+    const uint32_t word = (bits_of(x) & 0xffff0000u) | lower;
+    return word < bits_of(x) ? word + 0x10000u : word;
+}
+
+/* Rounds the slopes of function j to what its row can hold. */
+static void store_slopes(const fits *t, uint32_t j, const double right[4])
+{
+    const uint32_t second = lower_half((float)right[2]);
+    t->slope[0][j] = (double)mote_cert_upper(word_nearest((float)right[1], second));
+    t->slope[1][j] = (double)mote_cert_lower(second);
+    t->slope[2][j] = (double)mote_cert_lower(lower_half((float)right[3]));
+}
+
 static void solve_all(const fitter *f, double a[4][4])
 {
     mote_cert_factor(a);
@@ -253,8 +299,7 @@ static void solve_all(const fitter *f, double a[4][4])
         for (int k = 0; k < 4; ++k)
             right[k] = f->fits.right[k][j];
         mote_cert_solve((const double(*)[4])a, right);
-        for (int k = 0; k < 3; ++k)
-            f->fits.slope[k][j] = mote_as_float(right[k + 1]);
+        store_slopes(&f->fits, j, right);
     }
 }
 
@@ -315,7 +360,7 @@ static void widen_rows(const double z[3][MOTE_CERT_FIT_CHUNK], size_t count,
 }
 
 /* The least and the largest of phi - sum_k g_k z_k over all vertices, for the slopes as they
-   are stored. */
+   are read. */
 static void measure_residuals(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
 {
     for (size_t first = 0; first < part->count; first += f->at_once) {
@@ -366,14 +411,13 @@ static void write_lane(fitter *f, uint32_t place, size_t lane, double *bounds)
     const double above = high - middle;
     const double below = middle - low;
     row->offset[lane] = (float)middle;
-    row->residual[lane] = rounded_up(above > below ? above : below);
-    double bound = fabs(middle);
-    for (int k = 0; k < 3; ++k) {
-        const double slope = f->fits.slope[k][place];
-        row->slope[k][lane] = (float)slope;
-        bound += fabs(slope);
-    }
-    bound += (double)row->residual[lane];
+    const double slope[3] = {f->fits.slope[0][place], f->fits.slope[1][place],
+                             f->fits.slope[2][place]};
+    row->slopes[lane] = bits_of((float)slope[0]);
+    row->rest[lane] =
+        word_from(rounded_up(above > below ? above : below), bits_of((float)slope[2]) >> 16);
+    const double bound = fabs(middle) + fabs(slope[0]) + fabs(slope[1]) + fabs(slope[2]) +
+                         (double)mote_cert_upper(row->rest[lane]);
     *largest = bound > *largest ? bound : *largest;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/body/field_kinds.h"
 #include "core/body/deform.h"
+#include "core/certificate/certificate_fitted.h"
 #include "core/certificate/certificate_state.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
@@ -194,6 +195,91 @@ TEST(boxes_enclose_their_vertices_with_700_functions)
     }
     mote_certificate_destroy(c);
     scene_free(&s);
+}
+
+/* What a row says of a function at a vertex of child `lane`, and its residual. */
+static double row_value(const mote_cert_row *row, size_t lane, const double z[3],
+                        double *residual)
+{
+    *residual = (double)mote_cert_upper(row->rest[lane]);
+    return (double)row->offset[lane] + (double)mote_cert_upper(row->slopes[lane]) * z[0] +
+           (double)mote_cert_lower(row->slopes[lane]) * z[1] +
+           (double)mote_cert_lower(row->rest[lane]) * z[2];
+}
+
+/* Every function at every vertex of a leaf is within its row's residual; a function without a
+   row is 0. Returns how many values were compared. */
+static size_t check_leaf_rows(const mote_cert_tree *tree, const mote_cert_block *block,
+                              size_t lane)
+{
+    const mote_cert_row *rows =
+        (const mote_cert_row *)(const void *)(tree->strips + block->first_strip);
+    const mote_cert_leaf *leaf = &tree->leaves[~block->child[lane]];
+    const double *scale = mote_cert_scales_of(tree).scale;
+    mote_cert_box box = {.centre = mote_vec3_make((double)block->centre[0][lane],
+                                                  (double)block->centre[1][lane],
+                                                  (double)block->centre[2][lane])};
+    for (int k = 0; k < 3; ++k)
+        box.half[k] =
+            mote_vec3_make((double)block->half[k][0][lane], (double)block->half[k][1][lane],
+                           (double)block->half[k][2][lane]);
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
+        const uint32_t v = tree->leaf_vertices[leaf->first_vertex + i];
+        double phi[PADDED], z[3], residual;
+        patch_basis(tree->body->field, tree->body->mesh, v, phi);
+        mote_cert_box_coordinates(&box, mote_cert_tree_position(tree, v), z);
+        for (uint32_t k = 0; k < block->active_count; ++k) {
+            const uint32_t j = tree->active[block->first_active + k];
+            const double value = row_value(&rows[k], lane, z, &residual);
+            assert_true(fabs(phi[j] * scale[j] - value) <= residual);
+            phi[j] = 0;
+        }
+        for (int j = 0; j < PADDED; ++j)
+            assert_true(phi[j] == 0);
+    }
+    return (size_t)leaf->vertex_count * block->active_count;
+}
+
+/* Denormal numbers are slow on some processors, so no half of a word may make one. */
+static void check_words(const mote_cert_row *row, size_t lane)
+{
+    const float parts[4] = {mote_cert_upper(row->slopes[lane]),
+                            mote_cert_lower(row->slopes[lane]),
+                            mote_cert_upper(row->rest[lane]), mote_cert_lower(row->rest[lane])};
+    for (int k = 0; k < 4; ++k)
+        assert_true(parts[k] == 0 || fabsf(parts[k]) >= 0x1p-61F);
+}
+
+static void check_all_rows(const mote_cert_tree *tree)
+{
+    size_t compared = 0;
+    for (uint32_t b = 0; b < tree->block_count; ++b) {
+        const mote_cert_block *block = &tree->blocks[b];
+        const mote_cert_row *rows =
+            (const mote_cert_row *)(const void *)(tree->strips + block->first_strip);
+        for (size_t l = 0; l < block->children; ++l) {
+            for (uint32_t k = 0; k < block->active_count; ++k)
+                check_words(&rows[k], l);
+            compared += block->child[l] < 0 ? check_leaf_rows(tree, block, l) : 0;
+        }
+    }
+    assert_true(compared > 1000);
+}
+
+TEST(rows_are_within_their_residuals_as_they_are_read)
+{
+    for (int fits = 0; fits < 2; ++fits) {
+        scene s;
+        scene_init(&s, 30, 14, 2.5, false);
+        use_patches(&s, &sparse_kind);
+        const mote_cert_tree_options options = {
+            .length = s.length, .width = MOTE_CERT_WIDTH, .linear_fits = fits == 1};
+        mote_cert_tree *tree = NULL;
+        assert_int_equal(mote_cert_tree_create(&s.body[0], &options, &tree), MOTE_OK);
+        check_all_rows(tree);
+        mote_cert_tree_destroy(tree);
+        scene_free(&s);
+    }
 }
 
 /* The sums over sparse() and basis() are the same bits, one vertex at a time and all at once.
