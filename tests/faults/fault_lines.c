@@ -179,16 +179,16 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_kind ki
 }
 
 /* A coverage build tries every place, or every third of a line that has many and takes long.
-   Other builds try all places of a line that has few, and else a sample, to save time; with
-   sanitizers a smaller one. */
+   Other builds try a sample, to save time, or all places of a line that has few; with
+   sanitizers a smaller sample. */
 static size_t stride(size_t places)
 {
 #ifdef MOTE_COVERAGE
     return places > 350 ? 3 : 1;
 #else
-    if (places <= 60)
-        return 1;
-    return mote_heap_read().counted ? 20 : 40;
+    if (!mote_heap_read().counted)
+        return 40;
+    return places <= 24 ? 1 : 20;
 #endif
 }
 
