@@ -28,12 +28,6 @@ static void gather(const mote_cert_tree *tree, const uint32_t *vertices, size_t 
     g->count = k;
 }
 
-/* Every how many vertices one is taken so that there are at most MOTE_CERT_FIT_CHUNK. */
-static size_t sample_stride(size_t count)
-{
-    return (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
-}
-
 static size_t chunk_of(size_t left)
 {
     return left < MOTE_CERT_FIT_CHUNK ? left : MOTE_CERT_FIT_CHUNK;
@@ -342,7 +336,7 @@ static void turn_axes(const mote_cert_tree *tree, const uint32_t *vertices, size
     const mote_vec3 a = axes[0];
     const mote_vec3 b = axes[1];
     gathered g;
-    gather(tree, vertices, count, sample_stride(count), &g);
+    gather(tree, vertices, count, mote_cert_sample_stride(count), &g);
     double least = area_along(&g, a, b);
     for (int i = 0; i < 9; ++i) {
         const mote_vec3 u = mote_add_scaled(mote_scale(a, turns[i][0]), turns[i][1], b);

@@ -39,6 +39,12 @@ void mote_cert_solve(const double a[4][4], double b[4]);
 /* Where there are more vertices, axes and slopes are found from a sample of about this many. */
 #define MOTE_CERT_FIT_CHUNK 512
 
+/* Every how many of count vertices one is taken for that. */
+static inline size_t mote_cert_sample_stride(size_t count)
+{
+    return (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
+}
+
 /* z of each stride-th of count vertices, MOTE_CERT_FIT_CHUNK of them at most, and copies of the
    last one up to a multiple of MOTE_LANES; returns how many there are without the copies. The
    bits of mote_cert_box_coordinates. No allocation. */

@@ -131,12 +131,8 @@ static mote_status build_trees(const mote_body *const body[2],
                         .width = options->width,
                         .linear_fits = options->linear_fits},
                .trees = trees};
-    if (options->threads < 2) {
-        const mote_status status = mote_cert_tree_create(body[0], &o.plan, &trees[0]);
-        return status == MOTE_OK ? mote_cert_tree_create(body[1], &o.plan, &trees[1]) : status;
-    }
     mote_pool *pool;
-    const mote_status status = mote_pool_create(2, &pool);
+    const mote_status status = mote_pool_create(options->threads < 2 ? 1 : 2, &pool);
     if (status != MOTE_OK)
         return status;
     mote_pool_run(pool, build_range, &o, 2, 1);

@@ -25,14 +25,16 @@ typedef struct mote_cert_row {
     uint32_t rest[MOTE_CERT_WIDTH];   /* upper half: residual; lower: slope of axis 2 */
 } mote_cert_row;
 
+/* A float and its bits. */
+typedef union mote_cert_word {
+    uint32_t bits;
+    float value;
+} mote_cert_word;
+
 /* The float in either half of a word. */
 MOTE_INLINE float mote_cert_upper(uint32_t word)
 {
-    const union {
-        uint32_t bits;
-        float value;
-    } both = {word};
-    return both.value;
+    return (mote_cert_word){.bits = word}.value;
 }
 
 MOTE_INLINE float mote_cert_lower(uint32_t word)

@@ -252,11 +252,7 @@ static void add_coordinates(const double at[3][MOTE_CERT_FIT_CHUNK], size_t coun
 
 static uint32_t bits_of(float x)
 {
-    const union {
-        float value;
-        uint32_t bits;
-    } both = {x};
-    return both.bits;
+    return (mote_cert_word){.value = x}.bits;
 }
 
 /* The float nearest to x of which only the upper half is not 0, in a lower half. */
@@ -307,7 +303,7 @@ static void solve_all(const fitter *f, double a[4][4])
    are measured at all vertices: where there are many, a sample of them is fitted. */
 static void fit_slopes(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
 {
-    const size_t stride = (part->count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
+    const size_t stride = mote_cert_sample_stride(part->count);
     double a[4][4] = {{0}};
     size_t used = 0;
     for (size_t first = 0; first < part->count; first += f->at_once * stride) {

@@ -1,5 +1,5 @@
 # put_marked TEXT PAGE BEGINS ENDS: replaces what stands in PAGE between its lines BEGINS and ENDS by the file TEXT, with
-# the commit, the day and the machine of MANIFEST, a run's manifest.json. Sourced by peers.sh and ratios.sh.
+# the commit, the day and the machine of MANIFEST, a run's manifest.json. Sourced by what writes tables into documents.
 value() { sed -nE "s/^ *\"$1\": (\"([^\"]*)\"|([a-z0-9]+)),?$/\2\3/p" "$MANIFEST" | head -n 1; }
 
 put_marked() {
