@@ -174,7 +174,9 @@ mote_status mote_controls_read(const mote_body *body, const mote_controls *contr
     else if (weights)
         turn_vectors(body, weights, &pose.rotation, x, y, z);
     if (!all_finite(room, 3 * padded))
-        return fail_changed("weights");
+        return mote_fail(MOTE_EINVAL,
+                         "weights or amounts: times what they move, they leave the range of "
+                         "doubles, or they changed while they were read; give smaller ones");
     *state = (mote_body_state){.pose = pose,
                                .weights = {x, y, z, field->count, field->padded},
                                .shape_changed = true,

@@ -183,7 +183,7 @@ static int widest_axis(const mote_scene_box *bounds, uint32_t count)
             high = fmax(high, to);
             sum += to - from;
         }
-        const double spread = sum > 0 ? (high - low) / sum : HUGE_VAL;
+        const double spread = (high - low) / sum; /* no box is without a size */
         if (spread > widest) {
             widest = spread;
             best = axis;
@@ -197,7 +197,7 @@ static int by_low(const void *a, const void *b)
     const sweep_entry *p = a, *q = b;
     if (p->low < q->low || p->low > q->low)
         return p->low < q->low ? -1 : 1;
-    return p->body < q->body ? -1 : p->body > q->body;
+    return (p->body > q->body) - (p->body < q->body);
 }
 
 static int by_bodies(const void *a, const void *b)

@@ -71,7 +71,8 @@ typedef struct mote_certificate_answer {
 
 /* Answers one frame. first (may be NULL): vertices of a pair of faces to start from, where the
    caller knows a good one; it changes the time only. enough: a contact question's tolerance, so
-   that the query ends when distance <= enough or lower > enough; negative for the distance. No
+   that the query ends when distance <= enough or lower > enough; negative for the distance. A
+   distance whose square no double holds, from 1e154 on, is infinite, and has no witnesses. No
    allocation. */
 void mote_certificate_query(mote_certificate *certificate, const mote_frame *frame,
                             const uint32_t (*first)[3], double enough,

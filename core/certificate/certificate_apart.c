@@ -10,11 +10,11 @@
    frame instead of 33,621). */
 #define TRIES_RIGID 2
 
-/* Keeps a direction; false, and nothing is kept, where the vector has none. */
+/* Keeps a direction; false, and nothing is kept, where the vector is 0 or not a number. */
 static bool keep(mote_cert_memory *memory, mote_vec3 vector)
 {
     const double length = mote_length(vector);
-    if (!(length > 0 && length < HUGE_VAL))
+    if (!(length > 0))
         return false;
     memory->parting[0] = (float)(vector.x / length);
     memory->parting[1] = (float)(vector.y / length);
@@ -100,16 +100,13 @@ static mote_vec3 farthest_corner(mote_certificate *c, int s)
 
 /* Turns the direction kept, which does not part the bodies: mirrored at the plane across the
    line between the corners that overlap most (Chung and Wang 1996). It parts convex bodies
-   after a few turns. False where there is no such line. */
+   after a few turns. False where the corners coincide or leave the range of floats. */
 static bool turn(mote_certificate *c)
 {
     const mote_vec3 line = mote_sub(farthest_corner(c, 1), farthest_corner(c, 0));
-    const double squared = mote_length_squared(line);
-    if (!(squared > 0 && squared < HUGE_VAL))
-        return false;
     const mote_vec3 direction = kept(&c->memory);
-    return keep(&c->memory,
-                mote_add_scaled(direction, -2 * mote_dot(direction, line) / squared, line));
+    const double along = mote_dot(direction, line) / mote_length_squared(line);
+    return keep(&c->memory, mote_add_scaled(direction, -2 * along, line));
 }
 
 bool mote_cert_still_apart(mote_certificate *c, double *lower)

@@ -65,8 +65,8 @@ typedef struct mote_cert_bounds {
                     mote_cert_node *node);
 
     /* The boxes of a block: writes centre, axis and width of the node and calls
-       mote_cert_finish_boxes. May write low and high too and set spans, then also aligned,
-       unmeasured and wide. */
+       mote_cert_finish_boxes. May write low and high too and set spans, then also aligned and
+       unmeasured, and wide where `hull` is offered. */
     void (*boxes)(const mote_cert_side *side, const mote_cert_block *block,
                   mote_cert_node *node);
 

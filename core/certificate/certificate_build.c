@@ -134,9 +134,11 @@ static uint32_t split_levels(builder *b, range whole, uint32_t levels,
         for (uint32_t i = 0; i < count; ++i) {
             const range r = parts[i];
             const uint32_t below = r.levels > 0 ? r.levels - 1 : 0;
-            const uint32_t most = (uint32_t)MOTE_CERT_LEAF_TRIANGLES << below;
-            const uint32_t middle =
-                r.begin + mote_cert_split(&b->poses, b->items + r.begin, r.end - r.begin, most);
+            /* every leaf below gets a triangle, and none too many */
+            const uint32_t least = 1u << below;
+            const uint32_t most = least * MOTE_CERT_LEAF_TRIANGLES;
+            const uint32_t middle = r.begin + mote_cert_split(&b->poses, b->items + r.begin,
+                                                              r.end - r.begin, least, most);
             next[made++] = (range){r.begin, middle, below};
             next[made++] = (range){middle, r.end, below};
         }

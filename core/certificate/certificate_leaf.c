@@ -12,6 +12,8 @@
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"
 
+#include <assert.h>
+
 #define WIDTH MOTE_CERT_WIDTH
 
 static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
@@ -198,9 +200,9 @@ bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
     bool narrowed = false;
     mote_cert_leaf_hull(side, node, lane, &placed);
     if (node->wide >> lane & 1) {
-        const mote_cert_hull *near = mote_cert_leaf_near_hull(side, node, lane);
-        narrowed = near && narrow_box(node, lane, near, &placed);
-        hull = near ? near : hull;
+        hull = mote_cert_leaf_near_hull(side, node, lane);
+        assert(hull);
+        narrowed = narrow_box(node, lane, hull, &placed);
     }
     for (size_t r = 0; r < 3; ++r) {
         float least, most;

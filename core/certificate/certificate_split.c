@@ -10,6 +10,7 @@
 #include "core/certificate/certificate_split.h"
 #include "core/certificate/certificate_box.h"
 
+#include <assert.h>
 #include <float.h>
 
 static void swap_items(mote_cert_item *a, mote_cert_item *b)
@@ -132,7 +133,7 @@ typedef struct probes {
     uint32_t count;
     uint32_t half[PLACES]; /* ascending: triangles in the first part */
     uint32_t cut[PLACES];  /* the same of the probes, not 0 and less than count */
-    uint32_t places;
+    uint32_t places;       /* at least 1 */
 } probes;
 
 /* Evenly spread over a range. */
@@ -143,18 +144,23 @@ static void choose(const mote_cert_item *items, uint32_t count, uint32_t most, p
         p->items[i] = items[(uint64_t)i * count / p->count];
 }
 
-/* The middle, and places beside it up to where the larger part has `most` triangles. */
-static void choose_places(uint32_t count, uint32_t most, bool middle_only, probes *p)
+/* How few and how many triangles a part may have. */
+typedef struct limits {
+    uint32_t least, most;
+} limits;
+
+/* The middle, and places beside it up to where a part is as small or as large as it may be. */
+static void choose_places(uint32_t count, limits part, bool middle_only, probes *p)
 {
     const uint32_t middle = count / 2;
-    const uint32_t room = most > count - middle ? most - (count - middle) : 0;
+    const uint32_t room = part.most > count - middle ? part.most - (count - middle) : 0;
     p->places = 0;
     for (int step = middle_only ? 0 : -STEPS; step <= (middle_only ? 0 : STEPS); ++step) {
         const int64_t beside = (int64_t)room * step / STEPS;
         const uint32_t half = (uint32_t)((int64_t)middle + beside);
         const uint32_t cut = (uint32_t)((uint64_t)half * p->count / count);
         const bool same = p->places > 0 && cut == p->cut[p->places - 1];
-        if (same || cut < 1 || cut >= p->count)
+        if (same || cut < 1 || half < part.least || half > count - part.least)
             continue;
         p->half[p->places] = half;
         p->cut[p->places++] = cut;
@@ -218,13 +224,12 @@ static void add_costs(const float (*centres)[3], const probes *p, double cost[PL
     }
 }
 
-/* The best place for a way's axis; false where no place leaves triangles on both sides. */
-static bool place_best(const mote_cert_poses *poses, probes *p, way *w)
+/* The best place for a way's axis. */
+static void place_best(const mote_cert_poses *poses, probes *p, way *w)
 {
     double cost[PLACES] = {0};
     uint32_t end = p->count, best = 0;
-    if (p->places == 0)
-        return false;
+    assert(p->places > 0);
     halve_along(centres_of(poses, w->pose), w->axis, p->items, end, p->cut[p->places - 1]);
     for (uint32_t i = p->places; i-- > 0;) {
         select_least(p->items, end, p->cut[i]);
@@ -236,7 +241,6 @@ static bool place_best(const mote_cert_poses *poses, probes *p, way *w)
         best = cost[i] < cost[best] ? i : best;
     w->cost = cost[best];
     w->half = p->half[best];
-    return true;
 }
 
 /* Puts a way among the best ones, which are in ascending order of their cost. */
@@ -254,12 +258,12 @@ static void keep_best(way best[BEST], uint32_t *count, const way *w)
 /* Tries the main axis and the coordinates' axes in each pose; returns how many ways are kept.
  */
 static uint32_t find_ways(const mote_cert_poses *poses, const mote_cert_item *items,
-                          uint32_t count, uint32_t most, way best[BEST])
+                          uint32_t count, limits part, way best[BEST])
 {
     probes p;
     uint32_t kept = 0;
     choose(items, count, COARSE, &p);
-    choose_places(count, most, true, &p);
+    choose_places(count, part, true, &p);
     for (uint32_t pose = 0; pose < poses->count; ++pose) {
         const mote_vec3 axes[4] = {main_axis(p.items, p.count, centres_of(poses, pose)),
                                    {1, 0, 0},
@@ -267,24 +271,25 @@ static uint32_t find_ways(const mote_cert_poses *poses, const mote_cert_item *it
                                    {0, 0, 1}};
         for (int k = 0; k < 4; ++k) {
             way w = {.axis = axes[k], .pose = pose};
-            if (place_best(poses, &p, &w))
-                keep_best(best, &kept, &w);
+            place_best(poses, &p, &w);
+            keep_best(best, &kept, &w);
         }
     }
     return kept;
 }
 
 static uint32_t split_posed(const mote_cert_poses *poses, mote_cert_item *items, uint32_t count,
-                            uint32_t most)
+                            limits part)
 {
     way ways[BEST];
     probes p;
-    const uint32_t kept = find_ways(poses, items, count, most, ways);
+    const uint32_t kept = find_ways(poses, items, count, part, ways);
     way best = {.cost = HUGE_VAL, .axis = {1, 0, 0}, .half = count / 2};
     choose(items, count, FINE, &p);
-    choose_places(count, most, false, &p);
+    choose_places(count, part, false, &p);
     for (uint32_t i = 0; i < kept; ++i) {
-        if (place_best(poses, &p, &ways[i]) && ways[i].cost < best.cost)
+        place_best(poses, &p, &ways[i]);
+        if (ways[i].cost < best.cost)
             best = ways[i];
     }
     halve_along(centres_of(poses, best.pose), best.axis, items, count, best.half);
@@ -292,10 +297,10 @@ static uint32_t split_posed(const mote_cert_poses *poses, mote_cert_item *items,
 }
 
 uint32_t mote_cert_split(const mote_cert_poses *poses, mote_cert_item *items, uint32_t count,
-                         uint32_t most)
+                         uint32_t least, uint32_t most)
 {
     if (poses->count > 1)
-        return split_posed(poses, items, count, most);
+        return split_posed(poses, items, count, (limits){least, most});
     const mote_vec3 axis = main_axis(items, count, centres_of(poses, 0));
     halve_along(centres_of(poses, 0), axis, items, count, count / 2);
     return count / 2;

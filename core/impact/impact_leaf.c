@@ -13,11 +13,9 @@
 #define GAIN_LEAST 1e-3
 
 /* The largest s from which on g + m s - bend s^2 is not above 0 any more, where it is above 0
-   at some earlier s; infinite where there is none. */
+   at some earlier s; 0 or less where it never is. */
 static double root_of(double g, double m, double bend)
 {
-    if (!(bend > 0))
-        return m < 0 ? g / -m : HUGE_VAL;
     const double square = m * m + 4 * bend * g;
     if (!(square > 0))
         return 0;
@@ -245,19 +243,15 @@ static mote_vec3 place_of(const mote_moving_leaf *leaf, double part)
     return mote_scale(sum, 4.0 / MOTE_CERT_LEAF_VERTICES);
 }
 
-/* Whether the leaves are apart along the line between their places. */
+/* Whether the leaves are apart along the line between their places; not where these are one. */
 static bool apart_by_places(const mote_moving_leaf *first, const mote_moving_leaf *second,
                             double part, double need)
 {
-    mote_vec3 u = mote_sub(place_of(second, part), place_of(first, part));
-    const double length = mote_length(u);
-    if (!(length > 0))
-        return false;
-    u = mote_scale(u, 1 / length);
+    const mote_vec3 u = mote_sub(place_of(second, part), place_of(first, part));
     double reach[MOTE_CERT_LEAF_VERTICES];
     const double sum = reach_along(first, u, part, reach) +
                        reach_along(second, mote_scale(u, -1), part, reach);
-    return sum + need < 0;
+    return sum + need * (mote_length(u) + 0x1p-500) < 0;
 }
 
 double mote_moving_leaves(const mote_moving_leaf *first, const mote_moving_leaf *second,

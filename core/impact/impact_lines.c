@@ -27,7 +27,7 @@
 /* --- the field -----------------------------------------------------------------------------
  */
 
-static inline mote_lines *lines_in(const mote_field *field)
+mote_lines *mote_lines_of(const mote_field *field)
 {
     return (mote_lines *)(uintptr_t)field->data;
 }
@@ -44,7 +44,7 @@ static mote_vec3 lines_displacement(const mote_field *field, const mote_mesh *me
                                     uint32_t vertex, const mote_weights *weights)
 {
     (void)mesh;
-    return at_amounts(lines_in(field), vertex, weights);
+    return at_amounts(mote_lines_of(field), vertex, weights);
 }
 
 static void lines_displacement_single(const mote_field *field, const mote_mesh *mesh,
@@ -65,7 +65,7 @@ static void lines_group(const mote_field *field, const mote_mesh *mesh,
 {
     (void)mesh;
     for (size_t v = 0; v < MOTE_LANES; ++v) {
-        const mote_vec3 p = at_amounts(lines_in(field), vertices[v], weights);
+        const mote_vec3 p = at_amounts(mote_lines_of(field), vertices[v], weights);
         displacement[0][v] = p.x;
         displacement[1][v] = p.y;
         displacement[2][v] = p.z;
@@ -74,7 +74,7 @@ static void lines_group(const mote_field *field, const mote_mesh *mesh,
 
 static void lines_destroy(mote_field *field)
 {
-    mote_lines *lines = lines_in(field);
+    mote_lines *lines = mote_lines_of(field);
     free(lines->frame[0].blocks);
     free(lines->frame[1].blocks);
     free(lines);
@@ -124,7 +124,7 @@ static float rounded_up(double x)
 
 static void lines_begin(mote_cert_side *side)
 {
-    const mote_lines *lines = lines_in(side->tree->body->field);
+    const mote_lines *lines = mote_lines_of(side->tree->body->field);
     const mote_lines_frame *p = &lines->frame[0], *q = &lines->frame[1];
     const double a = side->state->weights.x[0], b = side->state->weights.y[0];
     const double scale = side->tree->scale;
@@ -161,7 +161,7 @@ typedef struct boxes {
 MOTE_INLINE void boxes_of(const mote_cert_side *restrict side,
                           const mote_cert_block *restrict block, boxes *restrict out)
 {
-    const mote_lines *lines = lines_in(side->tree->body->field);
+    const mote_lines *lines = mote_lines_of(side->tree->body->field);
     const size_t number = (size_t)(block - side->tree->blocks);
     const mote_lines_block *restrict p = &lines->frame[0].blocks[number];
     const mote_lines_block *restrict q = &lines->frame[1].blocks[number];
@@ -230,7 +230,7 @@ static bool lines_hull(const mote_cert_side *side, const mote_cert_node *node, s
                        mote_cert_hull *hull)
 {
     const mote_cert_tree *tree = side->tree;
-    const mote_lines *lines = lines_in(tree->body->field);
+    const mote_lines *lines = mote_lines_of(tree->body->field);
     const mote_weights *w = &side->state->weights;
     const uint32_t *vertices = tree->leaf_vertices + hull->leaf->first_vertex;
     const mote_vec3 middle = mote_add_scaled(mote_scale(lines->frame[0].middle, w->x[0]),
@@ -285,11 +285,6 @@ mote_status mote_lines_create(mote_field **field)
     made->data = lines;
     *field = made;
     return MOTE_OK;
-}
-
-mote_lines *mote_lines_of(const mote_field *field)
-{
-    return field && field->kind == &lines_kind ? lines_in(field) : NULL;
 }
 
 mote_status mote_lines_use(mote_lines *lines, const mote_cert_tree *tree, size_t *bytes)
@@ -417,7 +412,7 @@ static void fill_frame(mote_lines *lines, mote_lines_frame *frame, const mote_po
 static void use_piece(mote_lines *lines, const mote_path *path, uint32_t piece)
 {
     const mote_positions *start = &path->positions[piece], *end = start + 1;
-    if (lines->frame[0].from == start && lines->frame[1].from == end)
+    if (lines->frame[0].from == start) /* then the other end is there too */
         return;
     if (lines->frame[1].from == start || lines->frame[0].from == end) {
         const mote_lines_frame kept = lines->frame[0];

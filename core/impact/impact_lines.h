@@ -46,7 +46,7 @@ typedef struct mote_lines_motion {
 /* Makes the field; its lines have no tree yet. MOTE_ENOMEM. Free with mote_field_destroy. */
 mote_status mote_lines_create(mote_field **field);
 
-/* The lines of a field that was made by it; NULL for any other field, or for NULL. */
+/* The lines of a field that was made by it. */
 mote_lines *mote_lines_of(const mote_field *field);
 
 /* Allocates the boxes for the tree of a body with the field. MOTE_ENOMEM. */

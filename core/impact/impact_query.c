@@ -98,25 +98,18 @@ static void end_with(mote_impact_search *s, mote_impact_outcome outcome, double 
     s->found.witness[1] = s->at.witness[1];
 }
 
-/* Near an impact steps become short: looks for it ahead, the bracket's width from where the
-   proof has come to. Returns true when it is found, else the time of the last answer, up to
-   which all is proven. */
-static bool find_ahead(mote_impact_search *s, double reached, double *time)
+/* Near an impact steps become short: asks ahead, the bracket's width from where the proof has
+   come to. Returns whether the bodies touch at *time, the time of the last answer, up to which
+   all is proven if they do not. */
+static bool touch_ahead(mote_impact_search *s, double reached, double *time)
 {
-    const double end = s->question->end;
-    const double ahead = fmin(reached + s->options.resolution, end);
-    if (touch_at(s, ahead)) {
-        end_with(s, MOTE_IMPACT_FOUND, reached, ahead);
+    *time = fmin(reached + s->options.resolution, s->question->end);
+    if (touch_at(s, *time))
         return true;
-    }
-    *time = ahead;
-    if (proven_since(s, ahead) <= reached)
+    if (proven_since(s, *time) <= reached)
         return false;
     *time = reached;
-    if (!touch_at(s, reached))
-        return false;
-    end_with(s, MOTE_IMPACT_FOUND, reached, reached);
-    return true;
+    return touch_at(s, reached);
 }
 
 /* A sweep takes as long as some ten certified queries. It is made after `patience` steps by
@@ -141,13 +134,10 @@ static double sweep_at_times(mote_impact_search *s, double time, double reached)
 static void search_for_impact(mote_impact_search *s)
 {
     const mote_impact_question *q = s->question;
-    double time = q->begin;
-    if (touch_at(s, time)) {
-        end_with(s, MOTE_IMPACT_FOUND, time, time);
-        return;
-    }
-    for (;;) {
-        double reached = proven_until(s, time);
+    double time = q->begin, reached = time;
+    bool touching = touch_at(s, time);
+    while (!touching) {
+        reached = proven_until(s, time);
         if (reached > time && reached < q->end)
             reached = sweep_at_times(s, time, reached);
         if (reached >= q->end) {
@@ -163,16 +153,13 @@ static void search_for_impact(mote_impact_search *s)
             return;
         }
         if (reached - time < 0.5 * s->options.resolution) {
-            if (find_ahead(s, reached, &time))
-                return;
+            touching = touch_ahead(s, reached, &time);
             continue;
         }
         time = reached;
-        if (touch_at(s, time)) {
-            end_with(s, MOTE_IMPACT_FOUND, time, time);
-            return;
-        }
+        touching = touch_at(s, time);
     }
+    end_with(s, MOTE_IMPACT_FOUND, reached, time);
 }
 
 mote_status mote_impact_query(mote_impact_search *search, const mote_impact_question *question,

@@ -214,10 +214,10 @@ static void sort_bodies(mote_impact_scene *s)
     }
 }
 
-static bool are_near(const mote_scene_box *a, const mote_scene_box *b, double tolerance)
+/* Whether two boxes are near each other across the direction of the sweep. */
+static bool are_near_across(const mote_scene_box *a, const mote_scene_box *b, double tolerance)
 {
-    return a->low.x - b->high.x <= tolerance && b->low.x - a->high.x <= tolerance &&
-           a->low.y - b->high.y <= tolerance && b->low.y - a->high.y <= tolerance &&
+    return a->low.y - b->high.y <= tolerance && b->low.y - a->high.y <= tolerance &&
            a->low.z - b->high.z <= tolerance && b->low.z - a->high.z <= tolerance;
 }
 
@@ -249,7 +249,7 @@ static mote_status find_near(mote_impact_scene *s, double tolerance)
             const uint32_t j = s->order[l];
             if (s->boxes[j].low.x - s->boxes[i].high.x > wide)
                 break;
-            if (are_near(&s->boxes[i], &s->boxes[j], wide))
+            if (are_near_across(&s->boxes[i], &s->boxes[j], wide))
                 status = add_near(s, i, j);
         }
     }
@@ -308,8 +308,8 @@ static mote_status ask_pair(mote_impact_scene *s, const mote_impact_scene_questi
     first->iterations += found.iterations;
     if (found.outcome == MOTE_IMPACT_NONE)
         return MOTE_OK;
-    if (none || found.from < first->impact.from ||
-        (!(found.from > first->impact.from) && mote_pair_order(body, first->body) < 0)) {
+    /* no later than the first: that is where the question ended */
+    if (none || found.from < first->impact.from || mote_pair_order(body, first->body) < 0) {
         first->impact = found;
         memcpy(first->body, body, sizeof first->body);
     }

@@ -59,7 +59,8 @@ double mote_impact_swept_until(mote_impact_search *s, double time)
     if (!(s->at.lower - q->tolerance > spare)) /* each gap is to be above 0 at the start */
         return time;
     const double bend = 0.5 * chosen.acceleration * chosen.length * chosen.length;
-    const double part = mote_sweep_query(&s->sweep, q->tolerance + spare, bend);
+    const double part =
+        mote_sweep_query(&s->sweep, s->found.normal, q->tolerance + spare, bend);
     s->found.counters.box_tests += s->sweep.box_tests;
     s->found.counters.leaf_pairs += s->sweep.leaf_pairs;
     s->found.counters.triangle_tests += s->sweep.triangle_tests;

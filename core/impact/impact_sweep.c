@@ -52,6 +52,7 @@ mote_status mote_sweep_create(mote_certificate *certificate, mote_sweep *sweep, 
         if (status != MOTE_OK)
             return status;
         own->moved.fixed = true;
+        *bytes += ((size_t)own->moved.mask + 1) * sizeof *own->moved.slots;
     }
     return MOTE_OK;
 }
@@ -170,9 +171,10 @@ static mote_cert_node *motion_of(mote_sweep *w, int s, mote_cert_node *node)
 {
     const mote_cert_side *side = &w->certificate->side[s];
     mote_sweep_side *own = &w->side[s];
-    if (node < side->nodes || node >= side->nodes + side->node_count)
+    /* of a node that is not kept, anything from their number on */
+    const size_t index = ((uintptr_t)node - (uintptr_t)side->nodes) / sizeof *node;
+    if (index >= side->node_count)
         return NULL;
-    const size_t index = (size_t)(node - side->nodes);
     mote_cert_node *motion = &own->nodes[index];
     if (own->stamps[index] != w->stamp) {
         own->stamps[index] = w->stamp;
@@ -246,7 +248,7 @@ static void visit(mote_sweep *w, const part pair[2], uint32_t depth)
     const float facing[3] = {sign * w->facing[0], sign * w->facing[1], sign * w->facing[2]};
     uint32_t left = row(&box, node, motion, f, need, facing);
     w->box_tests += node->block->children;
-    for (; left && w->part > 0 && !w->failed; left &= left - 1) {
+    for (; left; left &= left - 1) {
         part next[2];
         next[s] = (part){node, motion, (size_t)__builtin_ctz(left)};
         next[1 - s] = *other;
@@ -269,7 +271,7 @@ static void decide_best(mote_sweep *w)
     w->part = mote_moving_triangles(&t[0], &t[1], &w->question, w->part, &w->triangle_tests);
 }
 
-double mote_sweep_query(mote_sweep *w, double tolerance, double bend)
+double mote_sweep_query(mote_sweep *w, mote_vec3 direction, double tolerance, double bend)
 {
     mote_certificate *c = w->certificate;
     ++w->stamp;
@@ -284,16 +286,12 @@ double mote_sweep_query(mote_sweep *w, double tolerance, double bend)
         bound += c->side[s].bound + boxes->bound;
     }
     w->spare = (float)(bound * 0x1p-17);
-    const mote_vec3 n = mote_sub(c->best.witness[1], c->best.witness[0]);
-    const double length = mote_length(n);
-    if (!(length > 0))
-        return 0;
-    w->direction = mote_scale(n, 1 / length);
+    w->direction = direction;
     w->question =
-        (mote_leaf_question){.tolerance = tolerance, .bend = bend, .apart = w->direction};
-    w->facing[0] = (float)w->direction.x;
-    w->facing[1] = (float)w->direction.y;
-    w->facing[2] = (float)w->direction.z;
+        (mote_leaf_question){.tolerance = tolerance, .bend = bend, .apart = direction};
+    w->facing[0] = (float)direction.x;
+    w->facing[1] = (float)direction.y;
+    w->facing[2] = (float)direction.z;
     decide_best(w);
     part pair[2];
     for (int s = 0; s < 2; ++s) {

@@ -57,7 +57,8 @@ void mote_sweep_destroy(mote_sweep *sweep);
 
 /* The part s of a step over which the bodies stay farther apart than the tolerance, from the
    moment of the certificate's last query on; 0 where nothing is shown. Both sides' states are
-   set; tolerance, bend: see above. No allocation. */
-double mote_sweep_query(mote_sweep *sweep, double tolerance, double bend);
+   set. direction: of length 1, from the first body to the second between the nearest points of
+   that query; tolerance, bend: see above. No allocation. */
+double mote_sweep_query(mote_sweep *sweep, mote_vec3 direction, double tolerance, double bend);
 
 #endif

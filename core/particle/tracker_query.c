@@ -97,7 +97,7 @@ size_t mote_tracker_particles(const mote_tracker *tracker, int body, mote_vec3 *
     }
     for (uint32_t i = 0; i < tracker->pair_count; ++i) {
         const mote_pair *pair = &tracker->pair[i];
-        if (last->known && memcmp(pair->vertex, last->vertex, sizeof pair->vertex) == 0)
+        if (memcmp(pair->vertex, last->vertex, sizeof pair->vertex) == 0)
             continue;
         if (count < capacity)
             positions[count] = mote_lazy_position(lazy, pair->vertex[body]);

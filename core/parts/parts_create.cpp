@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <functional>
-#include <new>
 #include <queue>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -240,10 +239,10 @@ extern "C" mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 
     }
     try {
         return make_parts(mesh, positions, parts);
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
-    } catch (const std::exception &error) {
+    } catch (const std::runtime_error &error) {
         return mote_fail(MOTE_ENOMEM, "convex parts: %s", error.what());
+    } catch (...) { /* callers are in C: nothing may pass them */
+        return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
     }
 }
 

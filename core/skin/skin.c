@@ -199,8 +199,6 @@ static void morph_displacement_single(const mote_field *field, const mote_mesh *
 
 void mote_skin_free(mote_skin *skin)
 {
-    if (!skin)
-        return;
     free(skin->start);
     free(skin->bone);
     free(skin->weight);

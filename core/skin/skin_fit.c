@@ -4,6 +4,7 @@
 #include "core/skin/skin_bounds.h"
 #include "core/skin/skin_data.h"
 
+#include <assert.h>
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -242,8 +243,9 @@ static void choose_slopes(const fitter *f, uint32_t bone, int16_t slope[3])
     const double *wanted = f->rows[bone].right + 1;
     const double sum = fabs(wanted[0]) + fabs(wanted[1]) + fabs(wanted[2]);
     const double part = sum > MOTE_SKIN_SLOPES ? MOTE_SKIN_SLOPES / sum : 1;
+    assert(sum < DBL_MAX); /* weights are at most 1, and the equations are never singular */
     for (int k = 0; k < 3; ++k)
-        slope[k] = f->linear && sum < DBL_MAX ? (int16_t)(wanted[k] * part / UNIT) : 0;
+        slope[k] = f->linear ? (int16_t)(wanted[k] * part / UNIT) : 0;
 }
 
 /* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. */

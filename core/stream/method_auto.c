@@ -25,7 +25,7 @@ enum { CERTIFIED, STREAM };
 
 /* Frames of which the median is the cost of the method that answers: a leap costs both alike,
    but a mean would count it against the one that answered then. The other is tried when it may
-   be faster than most of them. */
+   be faster than most of them, and not before there are as many after a change. */
 #define WINDOW 8
 
 /* A method takes over where it takes less than this part of the other one's time. With these
@@ -33,13 +33,11 @@ enum { CERTIFIED, STREAM };
    the better method, also where the costs of stream are 15 % off. */
 static const double share[2] = {[CERTIFIED] = 1, [STREAM] = 0.7};
 
-/* Frames between two trials. */
-#define PATIENCE 8
-
 /* Frames after which the last measurement of the method that does not answer is too old. This
-   many at first, and twice as many each time that the method is tried in vain. */
+   many at first, and twice as many each time that the method is tried in vain, up to the
+   longest. */
 #define MEMORY 24
-#define LONGEST_MEMORY 1024
+#define LONGEST_MEMORY (64 * MEMORY)
 
 typedef struct auto_state {
     mote_setup setup;
@@ -56,7 +54,6 @@ typedef struct auto_state {
     double known[2];              /* cost of each when it was last measured, or a floor */
     double cost[WINDOW];          /* of the last frames, that of frame k at k modulo WINDOW */
     uint32_t frames;              /* measured since the last change */
-    uint32_t wait;                /* frames until the next trial */
     uint32_t age;                 /* frames since the other method was measured */
     uint32_t memory;              /* age at which that is too old */
     mote_certificate_answer last; /* of the frame before */
@@ -109,7 +106,7 @@ static double floor_of(const auto_state *s, const mote_frame *frame)
         if (!has_changed(&frame->body[b]))
             continue;
         cost += 0.6 * body->mesh->vertex_count;
-        if (!s->given && !mote_body_is_given(body))
+        if (!s->given)
             cost += deform_cost(body);
     }
     return cost;
@@ -204,7 +201,6 @@ static void change(auto_state *s, bool trial)
     s->deformed = false;
     s->cold = true;
     s->frames = 0;
-    s->wait = PATIENCE;
     s->age = 0;
 }
 
@@ -246,7 +242,6 @@ static void judge(auto_state *s, double cost)
 
 static void count_frame(auto_state *s, const mote_frame *frame, const mote_counters *counters)
 {
-    s->wait -= s->wait > 0;
     ++s->age;
     if (s->cold) {
         s->cold = false;
@@ -262,7 +257,7 @@ static void count_frame(auto_state *s, const mote_frame *frame, const mote_count
         return;
     }
     s->cost[s->frames++ % WINDOW] = cost;
-    if (s->frames < WINDOW || s->wait > 0)
+    if (s->frames < WINDOW)
         return;
     if (s->age > s->memory)
         s->known[1 - s->current] = s->current == CERTIFIED ? floor_of(s, frame) : 500;

@@ -65,9 +65,10 @@ static mote_status build(mote_stream_scene *s, const mote_body *const *shapes,
         s->length = fmax(s->length, shapes[i]->mesh->diagonal);
         status = mote_stream_tree_create(shapes[i], &s->trees[i]);
     }
+    if (status != MOTE_OK)
+        return status;
     s->scale = ldexp(1, -ilogb(s->length));
-    if (status == MOTE_OK)
-        status = build_bodies(s, shape_of);
+    status = build_bodies(s, shape_of);
     return status == MOTE_OK ? build_searches(s) : status;
 }
 

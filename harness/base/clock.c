@@ -23,3 +23,11 @@ uint64_t mote_clock_cost_ns(void)
     }
     return (uint64_t)mote_statistics_median(costs, READINGS);
 }
+
+void mote_clock_date(char date[MOTE_CLOCK_DATE])
+{
+    const time_t now = time(NULL);
+    struct tm utc = {0};
+    (void)gmtime_r(&now, &utc); /* fails only where a year does not fit in an int */
+    (void)strftime(date, MOTE_CLOCK_DATE, "%Y-%m-%dT%H:%M:%SZ", &utc);
+}

@@ -22,7 +22,7 @@ static mote_status read_descriptor(int descriptor, const char *path, size_t limi
         return mote_fail(MOTE_EIO, "%s: %s", path, strerror(errno));
     if (!S_ISREG(info.st_mode))
         return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a file", path);
-    if (info.st_size < 0 || (uint64_t)info.st_size > limit)
+    if ((uint64_t)info.st_size > limit)
         return mote_fail(MOTE_EINVAL, "%s: %lld bytes; at most %zu are read", path,
                          (long long)info.st_size, limit);
     size_t expected = (size_t)info.st_size;
@@ -105,11 +105,15 @@ static int own_stream(const struct stat *file)
     return -1;
 }
 
+static bool is_stream(const struct stat *file)
+{
+    return !S_ISDIR(file->st_mode) && (!S_ISREG(file->st_mode) || own_stream(file) >= 0);
+}
+
 bool mote_path_is_stream(const char *path)
 {
     struct stat info;
-    return stat(path, &info) == 0 && !S_ISDIR(info.st_mode) &&
-           (!S_ISREG(info.st_mode) || own_stream(&info) >= 0);
+    return stat(path, &info) == 0 && is_stream(&info);
 }
 
 bool mote_path_is_output(const char *path)
@@ -146,17 +150,24 @@ char *mote_path_follow(const char *path)
     return NULL;
 }
 
+/* Closes a descriptor, unless it is negative, that was written to, or not. Whether all was
+   well; errno tells what was not. */
+static bool close_written(int descriptor, bool written)
+{
+    const int error = errno;
+    const bool closed = descriptor < 0 || close(descriptor) == 0;
+    if (!written)
+        errno = error;
+    return written && closed;
+}
+
 static mote_status write_stream(const char *path, const void *data, size_t size)
 {
     const int descriptor = mote_stream_open(path);
-    bool written = descriptor >= 0 && write_all(descriptor, data, size);
-    int error = errno;
-    if (descriptor >= 0 && close(descriptor) != 0 && written) {
-        error = errno;
-        written = false;
-    }
-    return written ? MOTE_OK
-                   : mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
+    const bool written = descriptor >= 0 && write_all(descriptor, data, size);
+    return close_written(descriptor, written)
+               ? MOTE_OK
+               : mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
 }
 
 /* Writes the file beside `target`, which does not end in a link, and renames it. */
@@ -164,15 +175,9 @@ static bool replace_file(const char *target, const char *beside, const void *dat
 {
     int descriptor = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     bool whole = descriptor >= 0 && write_all(descriptor, data, size) && fsync(descriptor) == 0;
-    int error = errno;
-    if (descriptor >= 0 && close(descriptor) != 0 && whole) {
-        error = errno;
-        whole = false;
-    }
-    if (whole && (rename(beside, target) != 0 || !sync_directory(target))) {
-        error = errno;
-        whole = false;
-    }
+    whole = close_written(descriptor, whole) && rename(beside, target) == 0 &&
+            sync_directory(target);
+    const int error = errno;
     if (!whole && descriptor >= 0)
         (void)unlink(beside);
     errno = error;
@@ -188,9 +193,12 @@ static const char *write_advice(int error)
 
 mote_status mote_file_write(const char *path, const void *data, size_t size)
 {
-    if (mote_path_is_stream(path))
+    struct stat info;
+    const bool exists = stat(path, &info) == 0;
+    if (exists && is_stream(&info))
         return write_stream(path, data, size);
-    char *target = mote_path_follow(path);
+    /* What cannot be looked at may be a device, which must not be replaced. */
+    char *target = exists || errno == ENOENT ? mote_path_follow(path) : NULL;
     if (!target)
         return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
     char *beside = mote_format("%s.%ld.part", target, (long)getpid());

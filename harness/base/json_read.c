@@ -69,9 +69,17 @@ mote_status mote_json_fail(const mote_json *node, const char *format, ...)
                      node->path[0] ? ": " : "", text);
 }
 
+/* Whether an error text begins with a place in the file. */
+static bool is_placed(const mote_json_file *file, const char *text)
+{
+    const size_t length = strlen(file->path);
+    return strncmp(text, file->path, length) == 0 && text[length] == ':' &&
+           strspn(text + length + 1, "0123456789") > 0;
+}
+
 mote_status mote_json_blame(const mote_json *node, mote_status status)
 {
-    if (status == MOTE_OK || status == MOTE_ENOMEM)
+    if (status == MOTE_OK || status == MOTE_ENOMEM || is_placed(node->file, mote_error_text()))
         return status;
     return mote_json_fail(node, "%s", mote_error_text());
 }
@@ -107,7 +115,7 @@ mote_status mote_json_object(const mote_json *node, const char *known)
 {
     if (!node->value)
         return mote_json_fail(node, "is missing; give an object");
-    if (!json_is_object(node->value))
+    if (json_typeof(node->value) != JSON_OBJECT)
         return mote_json_fail(node, "is not an object; write {...} with keys of %s", known);
     const char *key;
     json_t *value;

@@ -37,8 +37,9 @@ mote_json mote_json_root(const mote_json_file *file);
 /* MOTE_EINVAL with "FILE:LINE: PATH: TEXT"; the line is that of the value. */
 mote_status mote_json_fail(const mote_json *node, const char *format, ...) MOTE_PRINTF(2, 3);
 
-/* Puts the node's place before the error text of a failure that its value caused; the status
-   becomes MOTE_EINVAL. MOTE_OK and MOTE_ENOMEM stay as they are. */
+/* Puts the node's place before the error text of a failure that its value caused, unless it
+   begins with a place in this file; the status becomes MOTE_EINVAL. MOTE_OK and MOTE_ENOMEM
+   stay as they are. */
 mote_status mote_json_blame(const mote_json *node, mote_status status);
 
 /* The member of an object, or a node without a value. */

@@ -44,6 +44,14 @@ mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
     for ((i) = 0; (i) < json_array_size(array) && ((item) = json_array_get(array, i), true);   \
          ++(i))
 
+/* Iterates over the members of a JSON object, over nothing if it is not an object; value is
+   never NULL. */
+#define MOTE_EACH_MEMBER(key, value, object)                                                   \
+    for ((key) = json_object_iter_key(json_object_iter(object));                               \
+         (key) && ((value) = json_object_iter_value(json_object_key_to_iter(key)), true);      \
+         (key) = json_object_iter_key(                                                         \
+             json_object_iter_next(object, json_object_key_to_iter(key))))
+
 /* Indented, numbers with 17 digits. */
 #define MOTE_JSON_FLAGS (JSON_INDENT(1) | JSON_REAL_PRECISION(17))
 

@@ -133,7 +133,7 @@ static json_t *made_json(const mote_character *c, const mote_character_import *i
     for (size_t t = 0; t < c->rig.targets_count; ++t)
         (void)json_array_append_new(targets, name_json(c->rig.names + c->rig.targets[t].name));
     return json_pack(
-        "{s:i, s:i, s:I, s:o, s:f, s:i, s:f, s:I, s:I, s:I, s:I, s:f, s:o, s:o}", "vertices",
+        "{s:i, s:i, s:I, s:o, s:f, s:i, s:f, s:I, s:I, s:I, s:f, s:o, s:o}", "vertices",
         (int)c->mesh->vertex_count, "triangles", (int)c->mesh->triangle_count, "meshes",
         (json_int_t)import->meshes, "bones", bones, "weights_mean", weights.mean,
         "weights_most", (int)weights.most, "weights_off", import->off, "weights_off_vertices",

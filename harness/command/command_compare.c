@@ -14,7 +14,7 @@ static void print_table(const mote_comparison *c)
 {
     int width = 4;
     for (size_t i = 0; i < c->count; ++i) {
-        int length = c->changes[i].name ? (int)strlen(c->changes[i].name) : 0;
+        int length = (int)strlen(c->changes[i].name);
         width = length > width ? length : width;
     }
     (void)printf("time new / base, 95 %% interval, p corrected over %zu rows; an effect counts "
@@ -25,7 +25,7 @@ static void print_table(const mote_comparison *c)
                      "margin; counts, bytes and accuracy as they are\n");
     for (size_t i = 0; i < c->count; ++i) {
         const mote_change *change = &c->changes[i];
-        (void)printf("%-*s ", width, change->name ? change->name : "?");
+        (void)printf("%-*s ", width, change->name);
         if (isfinite(change->ratio) && isfinite(change->interval.low))
             (void)printf("%6.3f [%5.3f, %5.3f] p %-7.2g %-9s", change->ratio,
                          change->interval.low, change->interval.high, change->p,
@@ -52,20 +52,19 @@ static void print_table(const mote_comparison *c)
 
 static json_t *change_json(const mote_change *change)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:s, s:b, s:b, s:o, s:s}", "name",
-                     change->name ? change->name : "", "ratio", mote_json_number(change->ratio),
-                     "ci_low", mote_json_number(change->interval.low), "ci_high",
-                     mote_json_number(change->interval.high), "p", mote_json_number(change->p),
-                     "verdict", mote_verdict_names[change->verdict], "worse", change->worse,
-                     "better", change->better, "smallest_change",
-                     mote_json_number(change->smallest_change), "what",
-                     change->what.size ? change->what.data : "");
+    return json_pack(
+        "{s:s, s:o, s:o, s:o, s:o, s:s, s:b, s:b, s:o, s:s}", "name", change->name, "ratio",
+        mote_json_number(change->ratio), "ci_low", mote_json_number(change->interval.low),
+        "ci_high", mote_json_number(change->interval.high), "p", mote_json_number(change->p),
+        "verdict", mote_verdict_names[change->verdict], "worse", change->worse, "better",
+        change->better, "smallest_change", mote_json_number(change->smallest_change), "what",
+        change->what.size ? change->what.data : "");
 }
 
 static int print_json(const mote_comparison *c)
 {
     json_t *rows = json_array();
-    for (size_t i = 0; rows && i < c->count; ++i)
+    for (size_t i = 0; i < c->count; ++i)
         (void)json_array_append_new(rows, change_json(&c->changes[i]));
     json_t *object =
         json_pack("{s:i, s:s, s:f, s:b, s:b, s:i, s:i, s:o}", "schema", 1, "verdict",

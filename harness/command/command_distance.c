@@ -161,8 +161,8 @@ static int read_request(int argc, char **argv, request *wish)
         return mote_command_usage("distance",
                                   "two files are needed; write `mote distance A.obj "
                                   "B.obj`");
-    if (wish->count == 0 && mote_method_choice_read("fcl-aabb", wish->choices) == MOTE_OK)
-        wish->count = 1;
+    if (wish->count == 0)
+        wish->count = mote_method_choice_read("fcl-aabb", wish->choices) == MOTE_OK;
     return MOTE_EXIT_DONE;
 }
 

@@ -229,8 +229,8 @@ static int read_request(int argc, char **argv, request *wish)
     if (!wish->scenario || !wish->directory || wish->frame == 0)
         return mote_command_usage("export", "something is missing; write `mote export SCENARIO "
                                             "--frame K --out DIR`");
-    if (wish->count == 0 && mote_method_choice_read("fcl-aabb", wish->choices) == MOTE_OK)
-        wish->count = 1;
+    if (wish->count == 0)
+        wish->count = mote_method_choice_read("fcl-aabb", wish->choices) == MOTE_OK;
     return MOTE_EXIT_DONE;
 }
 

@@ -219,11 +219,13 @@ static json_t *make_json(const request *q, const mote_race *race)
 static mote_status write_json(const request *q, const mote_race *race, const char *path)
 {
     json_t *object = make_json(q, race);
-    char *text = object ? json_dumps(object, MOTE_JSON_FLAGS) : NULL;
+    if (!object)
+        return mote_fail(MOTE_EINVAL, "%s: a name that is not UTF-8 cannot be written", path);
+    char *text = json_dumps(object, MOTE_JSON_FLAGS);
+    char *lines = mote_format("%s\n", text);
     json_decref(object);
-    const mote_status status =
-        text ? mote_file_write(path, text, strlen(text))
-             : mote_fail(MOTE_EINVAL, "%s: a name that is not UTF-8 cannot be written", path);
+    const mote_status status = mote_file_write(path, lines, strlen(lines));
+    free(lines);
     free(text);
     return status;
 }

@@ -1,6 +1,7 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command/command.h"
 #include "harness/process/child.h"
+#include "harness/process/huge_pages.h"
 #include "harness/base/options.h"
 #include "harness/base/wrap.h"
 #include "harness/base/json_memory.h"
@@ -15,13 +16,14 @@
 
 typedef struct command {
     const char *name;
+    bool measures; /* times, so that its memory comes in huge pages */
     int (*run)(int argc, char **argv);
     const char *arguments, *summary;
     const mote_option *options;
 } command;
 
-#define COMMAND_ROW(name, arguments, summary, options)                                         \
-    {#name, mote_command_##name, arguments, summary, options},
+#define COMMAND_ROW(name, measures, arguments, summary, options)                               \
+    {#name, measures, mote_command_##name, arguments, summary, options},
 static const command commands[] = {MOTE_COMMANDS(COMMAND_ROW)};
 static const size_t command_count = sizeof commands / sizeof commands[0];
 
@@ -164,14 +166,14 @@ static int stopped_code(int code)
 
 int main(int argc, char **argv)
 {
+    char **const words = argv;
     /* If the reader of our output closes it, writing fails instead of ending the program. */
     (void)signal(SIGPIPE, SIG_IGN);
     /* The same if a file exceeds the size limit. */
     (void)signal(SIGXFSZ, SIG_IGN);
+    /* A program that starts us may ignore its children, and how ours end would be lost. */
+    (void)signal(SIGCHLD, SIG_DFL);
     mote_json_use_memory();
-    const int opened = open_plugins(argc, argv);
-    if (opened != MOTE_EXIT_DONE)
-        return opened;
     while (argc > 1) {
         const int is_strict = strcmp(argv[1], "--strict") == 0;
         if (is_strict)
@@ -185,6 +187,12 @@ int main(int argc, char **argv)
         argc -= 2 - is_strict;
         argv += 2 - is_strict;
     }
+    const command *first = argc > 1 ? find_command(argv[1]) : NULL;
+    if (first && first->measures)
+        mote_huge_pages_ask(words);
+    const int opened = open_plugins(argc, argv);
+    if (opened != MOTE_EXIT_DONE)
+        return opened;
     if (argc < 2) {
         (void)fprintf(stderr, "mote: no command; `mote --help` lists them\n");
         return MOTE_EXIT_USAGE;
@@ -200,10 +208,9 @@ int main(int argc, char **argv)
         (void)printf("mote %s\n", MOTE_VERSION);
         return mote_command_finish(MOTE_EXIT_DONE);
     }
-    const char *name = argv[asks_help ? 2 : 1];
-    const command *wanted = find_command(name);
+    const command *wanted = asks_help ? find_command(argv[2]) : first;
     if (!wanted)
-        return unknown_command(name);
+        return unknown_command(argv[asks_help ? 2 : 1]);
     if (asks_help || has_help(argc - 2, argv + 2))
         return print_command_help(wanted);
     return stopped_code(wanted->run(argc - 1, argv + 1));

@@ -69,7 +69,7 @@ static char *file_name(const mote_replicates *plan, size_t task)
 {
     json_t *object = identity(plan, task);
     char *text = json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    const uint64_t hash = text ? mote_hash_text(text) : 0;
+    const uint64_t hash = mote_hash_text(text);
     char *name =
         mote_format("simulations/%.20s-%.28s-r%u-%016" PRIx64 ".json",
                     mote_subject_facts_of(plan->subject).name,

@@ -49,12 +49,6 @@ mote_status mote_simulations_make(const char *directory)
     return status;
 }
 
-static const char *text_at(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 /* The row of a stored simulation, added if there is none yet. */
 static mote_simulations_row *row_of(const json_t *stored, mote_simulations *list)
 {
@@ -72,8 +66,8 @@ static mote_simulations_row *row_of(const json_t *stored, mote_simulations *list
     list->rows = mote_resize(list->rows, list->count + 1, sizeof *list->rows);
     mote_simulations_row *row = &list->rows[list->count++];
     *row = (mote_simulations_row){.question = question, .origin = origin};
-    row->scenario = text_at(question, "scenario");
-    row->method = text_at(question, "method");
+    row->scenario = mote_text_at(question, "scenario");
+    row->method = mote_text_at(question, "method");
     row->alone = json_is_true(json_object_get(question, "alone"));
     return row;
 }
@@ -90,7 +84,8 @@ static void add_replicate(const json_t *stored, const mote_simulation_result *re
 /* Adds a stored simulation to its row. */
 static void add_stored(const json_t *stored, mote_simulations *list)
 {
-    const char *status = text_at(stored, "status"), *reason = text_at(stored, "reason");
+    const char *status = mote_text_at(stored, "status"),
+               *reason = mote_text_at(stored, "reason");
     mote_simulation_result result;
     const bool whole = mote_simulation_read(stored, &result);
     if (!json_is_object(stored) || status[0] == '\0' || (strcmp(status, "ok") == 0 && !whole))

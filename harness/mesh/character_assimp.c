@@ -96,12 +96,12 @@ static mote_status node_of_bone(const reader *r, const struct aiBone *bone, uint
 }
 
 /* A node's map as stored, or the identity if it is singular: a mesh with bones does not depend
-   on it, and one without bones then stays as it is in the file. */
-static mote_affine home_of(const reader *r, uint32_t node)
+   on it, and one without bones then stays as it is in the file. *back is the map's inverse. */
+static mote_affine home_of(const reader *r, uint32_t node, mote_affine *back)
 {
-    mote_affine inverse;
-    return mote_affine_invert(&r->globals[node], &inverse) ? r->globals[node]
-                                                           : mote_affine_identity();
+    if (mote_affine_invert(&r->globals[node], back))
+        return r->globals[node];
+    return *back = mote_affine_identity();
 }
 
 /* The bone with the largest total weight, and the node of its mesh. */
@@ -145,12 +145,11 @@ static mote_status find_stand(reader *r)
     mote_status status = node_of_bone(r, bone, &node);
     if (status != MOTE_OK)
         return status;
-    const mote_affine place = home_of(r, home), bind = mote_assimp_affine(&bone->mOffsetMatrix);
+    mote_affine back;
+    (void)home_of(r, home, &back);
+    const mote_affine bind = mote_assimp_affine(&bone->mOffsetMatrix);
     const mote_affine moved = mote_affine_multiply(&r->globals[node], &bind);
-    mote_affine back, map;
-    if (!mote_affine_invert(&place, &back))
-        return MOTE_OK;
-    map = mote_affine_multiply(&moved, &back);
+    const mote_affine map = mote_affine_multiply(&moved, &back);
     double off = 0;
     for (int k = 0; k < 9; ++k)
         off = fmax(off, fabs(map.m[k / 3][k % 3] - (k % 4 == 0 ? 1 : 0)));
@@ -292,14 +291,15 @@ static mote_status add_mesh(reader *r, uint32_t node, unsigned number)
     const struct aiMesh *mesh = r->scene->mMeshes[number];
     const uint32_t base = (uint32_t)r->draft->soup.vertex_count;
     const size_t first = r->weights.count;
-    mote_affine place = home_of(r, node), back = mote_affine_identity();
+    mote_affine back, place = home_of(r, node, &back);
     if (mesh->mNumBones > 0 && r->is_added[number])
         return MOTE_OK;
     r->is_added[number] = true;
-    if (mesh->mNumBones > 0)
+    if (mesh->mNumBones > 0) {
         place = mote_affine_multiply(&r->stand, &place);
-    if (!mote_affine_invert(&place, &back))
-        place = back;
+        if (!mote_affine_invert(&place, &back))
+            place = back = mote_affine_identity();
+    }
     mote_status status = mote_assimp_add_mesh(r->path, mesh, &place, &r->draft->soup);
     if (status == MOTE_OK)
         status = add_weights(r, mesh, base, &back);

@@ -1,6 +1,7 @@
 #include "harness/process/child.h"
 
 #include "harness/process/confine.h"
+#include "harness/process/spawn.h"
 #include "harness/base/memory.h"
 
 #include <errno.h>
@@ -207,12 +208,10 @@ static void conclude(mote_child *child, int ended)
 
 static void reap(mote_child *child, mote_child_end end)
 {
-    int ended = 0;
     (void)close(child->input);
     if (end != MOTE_CHILD_DONE)
         (void)kill(child->pid, SIGKILL);
-    while (waitpid(child->pid, &ended, 0) < 0 && errno == EINTR) {
-    }
+    const int ended = mote_spawn_wait(child->pid);
     child->pid = 0;
     child->input = -1;
     child->end = end;

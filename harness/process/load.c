@@ -23,9 +23,8 @@ double mote_core_clock(int core)
     double mhz = 0;
     for (int seen = -1; file && mhz <= 0 && fgets(line, sizeof line, file);) {
         seen += strncmp(line, "processor", 9) == 0 ? 1 : 0;
-        const char *colon = strchr(line, ':');
-        if ((core < 0 || seen == core) && strncmp(line, "cpu MHz", 7) == 0 && colon)
-            mhz = strtod(colon + 1, NULL);
+        if ((core < 0 || seen == core) && strncmp(line, "cpu MHz", 7) == 0)
+            mhz = strtod(line + strcspn(line, "0123456789"), NULL);
     }
     if (file)
         (void)fclose(file);
@@ -35,22 +34,19 @@ double mote_core_clock(int core)
 /* Clock ticks since boot, summed over all cores: idle (or waiting for disks), and all. */
 static bool read_ticks(double *idle, double *all)
 {
-    char line[512];
+    /* user, nice, system, idle, iowait, irq, softirq, steal; guests are in user already. */
+    enum { TIMES = 8, IDLE = 3, WAIT = 4 };
+    char line[512] = "";
     FILE *file = fopen("/proc/stat", "r");
-    bool there = file && fgets(line, sizeof line, file) && strncmp(line, "cpu ", 4) == 0;
+    const bool there = file && fgets(line, sizeof line, file);
     if (file)
         (void)fclose(file);
+    char *next = line + strcspn(line, " ");
     *idle = *all = 0;
-    char *next = line + 4;
-    /* user, nice, system, idle, iowait, irq, softirq, steal; guests are in user already. */
-    for (int k = 0; there && k < 8; ++k) {
-        char *end;
-        double ticks = strtod(next, &end);
-        if (end == next)
-            break;
-        next = end;
+    for (int k = 0; k < TIMES; ++k) {
+        const double ticks = strtod(next, &next); /* 0 where the kernel has fewer */
+        *idle += k == IDLE || k == WAIT ? ticks : 0;
         *all += ticks;
-        *idle += k == 3 || k == 4 ? ticks : 0;
     }
     return there && *all > 0;
 }

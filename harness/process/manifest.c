@@ -1,7 +1,9 @@
 #include "harness/process/manifest.h"
 
+#include "harness/base/clock.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
+#include "harness/process/huge_pages.h"
 #include "harness/process/plugin.h"
 #include "harness/process/spawn.h"
 
@@ -11,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
-#include <time.h>
 #include <unistd.h>
 
 #define PROGRAM_LIMIT ((size_t)1 << 30)
@@ -45,12 +46,10 @@ static void proc_value(const char *path, const char *key, char *value, size_t si
         return;
     char line[1024];
     while (fgets(line, sizeof line, file)) {
-        const char *colon = strchr(line, ':');
-        size_t length = strlen(key);
-        if (!colon || strncmp(line, key, length) != 0 ||
-            line + length + strspn(line + length, " \t") != colon)
+        const char *after = line + strcspn(line, "\t:");
+        if ((size_t)(after - line) != strlen(key) || strncmp(line, key, strlen(key)) != 0)
             continue;
-        const char *start = colon + 1 + strspn(colon + 1, " \t");
+        const char *start = after + strspn(after, " \t:");
         (void)snprintf(value, size, "%.*s", (int)strcspn(start, "\n"), start);
         break;
     }
@@ -114,22 +113,15 @@ static void add_machine(json_t *object)
     (void)json_object_set_new(object, "cores", json_integer(sysconf(_SC_NPROCESSORS_ONLN)));
     (void)json_object_set_new(object, "memory", text_or_null(memory));
     (void)json_object_set_new(object, "kernel", text_or_null(kernel));
+    (void)json_object_set_new(object, "huge_pages", json_string(mote_huge_pages()));
 }
 
 static json_t *command_line(int argc, char **argv)
 {
     json_t *array = json_array();
-    for (int i = 0; array && i < argc; ++i)
+    for (int i = 0; i < argc; ++i)
         (void)json_array_append_new(array, json_string(argv[i]));
     return array;
-}
-
-static void now_text(char *text, size_t size)
-{
-    time_t now = time(NULL);
-    struct tm utc;
-    if (!gmtime_r(&now, &utc) || strftime(text, size, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
-        text[0] = '\0';
 }
 
 /* The sessions so far, an empty array if there are none; the caller decrefs. */
@@ -150,8 +142,8 @@ static json_t *old_sessions(const char *directory)
 mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,
                                 int argc, char **argv)
 {
-    char started[32], hash[20];
-    now_text(started, sizeof started);
+    char started[MOTE_CLOCK_DATE], hash[20];
+    mote_clock_date(started);
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     json_t *sessions = old_sessions(directory);
     char machine[MOTE_MACHINE_SIZE];

@@ -10,6 +10,7 @@
 #include "harness/process/child.h"
 #include "harness/process/plugin_offer.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,6 +75,13 @@ static mote_status create_method(size_t k, const mote_setup *setup, void **state
     s->method = *(const mote_method *)item;
     s->method.parameters = parameters;
     return mote_method_create(&s->method, setup, state);
+}
+
+/* Of a method whose library could not be loaded when it was to be created. */
+static void destroy_none(void *state)
+{
+    assert(!state);
+    (void)state;
 }
 
 typedef struct traits_question {
@@ -191,6 +199,7 @@ static mote_status add_method(library *from, const json_t *row)
     s->method = (mote_method){.name = text_of(row, "name"),
                               .summary = text_of(row, "summary"),
                               .create = method_create[method_count],
+                              .destroy = destroy_none,
                               .traits = method_traits[method_count]};
     s->method.parameters = parameters_of(row, &s->method.parameter_count);
     ++method_count;
@@ -217,15 +226,15 @@ static mote_status add_offer(library *l, const char *text, size_t size)
 {
     const json_t *row;
     size_t i;
-    mote_status status = mote_json_parse(l->path, text, size, "a library's offer", &l->offer);
+    mote_status status = mote_json_parse("offer", text, size, "a library's offer", &l->offer);
     if (status != MOTE_OK)
         return status;
-    json_array_foreach(json_object_get(l->offer, "methods"), i, row)
+    MOTE_EACH(i, row, json_object_get(l->offer, "methods"))
     {
         if (status == MOTE_OK)
             status = add_method(l, row);
     }
-    json_array_foreach(json_object_get(l->offer, "fields"), i, row)
+    MOTE_EACH(i, row, json_object_get(l->offer, "fields"))
     {
         if (status == MOTE_OK)
             status = add_field(l, row);
@@ -237,8 +246,7 @@ static mote_status blame(const char *path, mote_status status)
 {
     char why[800];
     (void)snprintf(why, sizeof why, "%s", mote_error_text());
-    return strncmp(why, path, strlen(path)) == 0 ? status
-                                                 : mote_fail(status, "%s: %s", path, why);
+    return mote_fail(status, "%s: %s", path, why);
 }
 
 mote_status mote_plugin_open(const char *path)
@@ -252,6 +260,7 @@ mote_status mote_plugin_open(const char *path)
     if (status == MOTE_OK && library_count == MOTE_PLUGINS_MAX)
         status = mote_fail(MOTE_EINVAL, "%s: more than %d libraries", path, MOTE_PLUGINS_MAX);
     if (status != MOTE_OK) {
+        free(data);
         free(real);
         return status;
     }
@@ -290,8 +299,8 @@ json_t *mote_plugin_json(void)
             const json_t *row;
             size_t i;
             names[n] = json_array();
-            json_array_foreach(json_object_get(libraries[k].offer, keys[n]), i, row)(void)
-                json_array_append(names[n], json_object_get(row, "name"));
+            MOTE_EACH(i, row, json_object_get(libraries[k].offer, keys[n]))
+            (void)json_array_append(names[n], json_object_get(row, "name"));
         }
         (void)json_array_append_new(
             list, json_pack("{s:s, s:i, s:o, s:o}", "file", libraries[k].path, "contract",

@@ -52,7 +52,7 @@ static bool same_sizes(const mote_plugin_item *item)
 /* Whether text is a letter and then letters, digits and marks of `more`. */
 static bool is_name(const char *text, const char *more)
 {
-    if (!text || !strchr(lower, text[0]) || strlen(text) > NAME_MOST)
+    if (!text || !text[0] || !strchr(lower, text[0]) || strlen(text) > NAME_MOST)
         return false;
     for (; *text; ++text) {
         if (!strchr(lower, *text) && !strchr("0123456789", *text) && !strchr(more, *text))

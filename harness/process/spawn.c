@@ -11,20 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define STATUS_NOT_RUN 127
-
-/* out: receives its output, and with errors_too its errors; -1: both go where ours go. */
-static _Noreturn void run(const char *const argv[], const char *directory, int out,
-                          bool errors_too)
+_Noreturn void mote_spawn_become(const char *const argv[])
 {
-    if (directory && chdir(directory) != 0)
-        _exit(STATUS_NOT_RUN);
-    if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
-        _exit(STATUS_NOT_RUN);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (out >= 0 && dup2(errors_too ? out : nowhere, STDERR_FILENO) < 0)
-        _exit(STATUS_NOT_RUN);
-    (void)setenv("LC_ALL", "C.UTF-8", 1);
     /* execvp does not write to its arguments; POSIX keeps the non-const type for old
        callers. */
     union {
@@ -32,7 +20,32 @@ static _Noreturn void run(const char *const argv[], const char *directory, int o
         char *const *wanted;
     } arguments = {.given = argv};
     (void)execvp(argv[0], arguments.wanted);
-    _exit(STATUS_NOT_RUN);
+    _exit(MOTE_SPAWN_NOT_RUN);
+}
+
+int mote_spawn_wait(pid_t pid)
+{
+    int status = 0;
+    while (waitpid(pid, &status, 0) < 0) {
+        if (errno != EINTR)
+            return -1;
+    }
+    return status;
+}
+
+/* out: receives its output, and with errors_too its errors; -1: both go where ours go. */
+static _Noreturn void run(const char *const argv[], const char *directory, int out,
+                          bool errors_too)
+{
+    if (directory && chdir(directory) != 0)
+        _exit(MOTE_SPAWN_NOT_RUN);
+    if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
+        _exit(MOTE_SPAWN_NOT_RUN);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (out >= 0 && dup2(errors_too ? out : nowhere, STDERR_FILENO) < 0)
+        _exit(MOTE_SPAWN_NOT_RUN);
+    (void)setenv("LC_ALL", "C.UTF-8", 1);
+    mote_spawn_become(argv);
 }
 
 /* Reads to the end; keeps as much as fits. */
@@ -74,12 +87,10 @@ static mote_status spawn(const char *const argv[], const char *directory, char *
     }
     if (pid < 0)
         return mote_fail(MOTE_EIO, "%s: no process: %s", argv[0], strerror(error));
-    int status = 0;
-    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = mote_spawn_wait(pid);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return MOTE_OK;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == STATUS_NOT_RUN)
+    if (WIFEXITED(status) && WEXITSTATUS(status) == MOTE_SPAWN_NOT_RUN)
         return mote_fail(MOTE_EIO, "%s: cannot be run; is it installed?", argv[0]);
     return mote_fail(MOTE_EIO, "%s: ended with status %d", argv[0],
                      WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));

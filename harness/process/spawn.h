@@ -5,6 +5,10 @@
 #include "core/base/status.h"
 
 #include <stddef.h>
+#include <sys/types.h>
+
+/* The exit status of a process that could not become another program. */
+#define MOTE_SPAWN_NOT_RUN 127
 
 /* Runs argv[0] (searched in PATH) with argv, ended by NULL, in directory (NULL: the current
    one) and waits. It runs in an English UTF-8 locale, whatever the user's is: we parse what git
@@ -18,5 +22,13 @@ mote_status mote_spawn(const char *const argv[], const char *directory, char *ou
 /* The same, but nothing it writes is shown; after a failure its output is in the error's text,
    on one line. */
 mote_status mote_spawn_quiet(const char *const argv[], const char *directory);
+
+/* Waits until a child process has ended; returns its wait status, or -1 if it is none of ours.
+ */
+int mote_spawn_wait(pid_t pid);
+
+/* In a child process: becomes the program argv[0] (searched in PATH), or ends with
+   MOTE_SPAWN_NOT_RUN. */
+_Noreturn void mote_spawn_become(const char *const argv[]);
 
 #endif

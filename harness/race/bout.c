@@ -15,10 +15,11 @@
    after the other process's turn (1 MiB from the last level: 0.2 ms), short compared with
    changes of the machine. */
 #define BLOCK_NS 4e6
-/* Passes over the frames continue for this long, both sides together ... */
-#define CELL_NS 0.4e9
+/* Passes over the frames continue for this long, both sides together ... (0.4 s of passes made
+   the values of pairs of processes no more alike: docs/benchmarking.md) */
+#define CELL_NS 0.1e9
 /* ... within these bounds. */
-#define PASSES_LEAST 5
+#define PASSES_LEAST 3
 #define PASSES_MOST 61
 
 /* The state of a cell during measurement. */
@@ -42,6 +43,8 @@ mote_status mote_bout_start(const mote_bout_options *options, mote_bout *bout)
     for (int side = 0; status == MOTE_OK && side < MOTE_RACE_SIDES; ++side)
         status = mote_racer_start(options->program[side], options->core, options->timeout,
                                   options->random, &bout->racer[side]);
+    for (int side = 0; status == MOTE_OK && side < MOTE_RACE_SIDES; ++side)
+        status = mote_racer_greet(&bout->racer[side]);
     return status;
 }
 
@@ -89,16 +92,22 @@ static mote_status unreadable(mote_racer *racer)
     return mote_fail(MOTE_EIO, "%s: an answer that cannot be read", program);
 }
 
-/* Opens a cell on one side. */
-static mote_status open_side(contest *c, const mote_race_cell *cell, int side, uint64_t *print)
+static mote_status ask_to_open(const contest *c, const mote_race_cell *cell, int side)
+{
+    return mote_racer_send(&c->bout->racer[side], "cell\t%s\t%u\t%u\t%s\t%" PRIu64 "\t%d\t%s",
+                           cell->scenario, cell->first, cell->last,
+                           mote_cache_names[cell->cache], cell->seed,
+                           c->bout->options.check_scene, cell->method);
+}
+
+/* Waits until a side has opened the cell. */
+static mote_status hear_opened(contest *c, const mote_race_cell *cell, int side,
+                               uint64_t *print)
 {
     mote_racer *racer = &c->bout->racer[side];
     char *answer = NULL;
     uint64_t last = 0;
-    const mote_status status =
-        mote_racer_ask(racer, &answer, "cell\t%s\t%u\t%u\t%s\t%" PRIu64 "\t%d\t%s",
-                       cell->scenario, cell->first, cell->last, mote_cache_names[cell->cache],
-                       cell->seed, c->bout->options.check_scene, cell->method);
+    const mote_status status = mote_racer_hear(racer, &answer);
     if (status != MOTE_OK)
         return status;
     const char *fingerprint = next_field(&answer, '\t'), *length = next_field(&answer, '\t');
@@ -108,7 +117,7 @@ static mote_status open_side(contest *c, const mote_race_cell *cell, int side, u
         !mote_read_unsigned(frame, cell->first, UINT32_MAX, &last))
         return unreadable(racer);
     *print = strtoull(fingerprint, &end, 16);
-    if (*end != '\0' || (side > 0 && c->frames != (uint32_t)last - cell->first + 1))
+    if (*end != '\0' || (c->frames > 0 && c->frames != (uint32_t)last - cell->first + 1))
         return *end ? unreadable(racer)
                     : mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
     c->first = cell->first;
@@ -329,19 +338,30 @@ static mote_status run_passes(contest *c)
     return MOTE_OK;
 }
 
+/* Opens the cell on both sides at once: while nothing is measured, they may use every core. A
+   side that was asked must be heard. */
+static mote_status open_cell(contest *c, const mote_race_cell *cell)
+{
+    uint64_t print[MOTE_RACE_SIDES] = {0, 0};
+    mote_race_side *side = c->result->side;
+    mote_status status = MOTE_OK;
+    for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k)
+        status = note(ask_to_open(c, cell, k), &side[k]);
+    for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k) {
+        if (!side[k].failed)
+            status = note(hear_opened(c, cell, k, &print[k]), &side[k]);
+    }
+    c->result->same_scene = is_over(c->result) || print[MOTE_RACE_A] == print[MOTE_RACE_B];
+    return status;
+}
+
 mote_status mote_bout_run(mote_bout *bout, const mote_race_cell *cell, mote_bout_result *result)
 {
     contest c = {.bout = bout, .result = result};
-    uint64_t print[MOTE_RACE_SIDES] = {0, 0};
-    mote_status status = MOTE_OK;
-    *result = (mote_bout_result){.same_scene = true};
-    for (int side = 0; status == MOTE_OK && !is_over(result) && side < MOTE_RACE_SIDES; ++side)
-        status = note(open_side(&c, cell, side, &print[side]), &result->side[side]);
-    if (status != MOTE_OK || is_over(result))
+    *result = (mote_bout_result){0};
+    mote_status status = open_cell(&c, cell);
+    if (status != MOTE_OK || is_over(result) || !result->same_scene)
         return status;
-    result->same_scene = print[0] == print[1];
-    if (!result->same_scene)
-        return MOTE_OK;
     status = run_passes(&c);
     free(c.times[MOTE_RACE_A]);
     free(c.times[MOTE_RACE_B]);

@@ -3,7 +3,8 @@
 
        race-child's first line    mote-race FORMAT
        cell SCENARIO FIRST LAST CACHE SEED PRINT METHOD
-                                  builds a method for frames FIRST .. LAST of a scenario;
+                                  builds a method for frames FIRST .. LAST of a scenario
+                                  (for impacts: those in which a question begins);
                                   cells are numbered from 0. PRINT 1: with the fingerprint
                                   (otherwise 0, since it takes long); LAST 0: to the end
                                   ok FINGERPRINT L LAST

@@ -6,6 +6,7 @@
 #include "harness/run/cell_process.h"
 #include "harness/base/clock.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,17 +208,16 @@ static bool is_late(const event *e)
 
 static mote_status run_pairs(event *e)
 {
-    mote_status status = MOTE_OK;
-    while (status == MOTE_OK && !all_done(e)) {
-        status = run_pair(e);
+    while (!all_done(e)) {
+        assert(e->race->pairs < MOTE_PAIRED_MAX); /* the last look is at so many, or before */
+        const mote_status status = run_pair(e);
         if (status != MOTE_OK)
-            break;
+            return status;
         const bool late = is_late(e);
         if (late || e->race->pairs == e->next_look)
-            look(e,
-                 late || e->looks + 1 == MOTE_RACE_LOOKS || e->race->pairs == MOTE_PAIRED_MAX);
+            look(e, late || e->looks + 1 == MOTE_RACE_LOOKS);
     }
-    return status;
+    return MOTE_OK;
 }
 
 /* Judges a row by its counts, answers and time together. */

@@ -43,6 +43,7 @@ typedef struct server {
     size_t scene_count;
     entrant *entrants[MOTE_RACE_CELLS];
     size_t entrant_count;
+    int core; /* to be pinned to before frames are measured; -1: none, or done */
     mote_text reply;
 } server;
 
@@ -119,12 +120,14 @@ static mote_status open_cell(server *s, char *fields[8])
     entrant *e = mote_allocate(1, sizeof *e);
     status = read_cell(fields, e);
     const mote_subject_facts facts = mote_subject_facts_of(&of->subject);
-    const uint32_t frames = facts.frames;
+    e->cell.step = mote_subject_step(&of->subject);
+    const uint32_t frames = facts.frames - e->cell.step; /* in which a question begins */
     e->cell.last = e->cell.last == 0 ? frames : e->cell.last;
     e->cell.subject = &of->subject;
     if (status == MOTE_OK && (e->cell.last > frames || e->cell.first > e->cell.last))
-        status = mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u",
-                           e->cell.first, e->cell.last, fields[1], frames);
+        status = mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u%s",
+                           e->cell.first, e->cell.last, fields[1], frames,
+                           e->cell.step ? " from which it asks" : "");
     if (status == MOTE_OK && fields[6][0] == '1' && of->subject.fingerprint == 0)
         status = mote_subject_identify(&of->subject);
     if (status == MOTE_OK)
@@ -212,6 +215,9 @@ static mote_status run_block(server *s, char *fields[8])
         !mote_read_unsigned(fields[3], 1, MOTE_RACE_BLOCK_FRAMES, &count) ||
         first + count > (uint64_t)e->cell.last + 1)
         return mote_fail(MOTE_EINVAL, "run: frames outside the cell's");
+    if (s->core >= 0)
+        mote_process_pin(s->core);
+    s->core = -1;
     uint64_t hash = MOTE_HASH_START;
     mote_counters sums = {0};
     status = run_frames(e, (uint32_t)first, (uint32_t)count, times, &sums, &hash);
@@ -286,10 +292,11 @@ static void free_server(server *s)
     free(s);
 }
 
-static int serve(void)
+static int serve(int core)
 {
     static char line[8192];
     server *s = mote_allocate(1, sizeof *s);
+    s->core = core;
     char greeting[64];
     const int size =
         snprintf(greeting, sizeof greeting, MOTE_RACE_GREETING "\t%d\n", MOTE_RACE_FORMAT);
@@ -306,11 +313,11 @@ static int serve(void)
 }
 
 /* Serves with the stack lowered by this many bytes. */
-__attribute__((noinline)) static int serve_below(uint64_t bytes)
+__attribute__((noinline)) static int serve_below(uint64_t bytes, int core)
 {
     volatile char step[STEP_BYTES];
     step[0] = 0;
-    const int code = bytes < STEP_BYTES ? serve() : serve_below(bytes - STEP_BYTES);
+    const int code = bytes < STEP_BYTES ? serve(core) : serve_below(bytes - STEP_BYTES, core);
     return code + step[0];
 }
 
@@ -333,10 +340,8 @@ int mote_race_child(int argc, char **argv)
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     /* Ctrl-C reaches every process of the terminal; the parent ends its children. */
     (void)signal(SIGINT, SIG_IGN);
-    if (numbers[0] > 0)
-        mote_process_pin((int)numbers[0] - 1);
     void *below = mote_allocate(1, numbers[2] + 1);
-    const int code = serve_below(numbers[1]);
+    const int code = serve_below(numbers[1], (int)numbers[0] - 1);
     free(below);
     return code;
 }

@@ -80,15 +80,13 @@ static void say_change(mote_text *text, const char *name, double a, double b)
 
 static void say_answers(mote_text *text, const mote_race_row *row)
 {
-    const char *separator = text->size ? "; " : "";
     if (row->worst > MOTE_RACE_EXACT && isfinite(row->worst))
-        mote_text_add(text, "%sanswers differ by up to %.2g L, at frame %u", separator,
-                      row->worst, row->worst_frame);
-    else if (row->worst > MOTE_RACE_EXACT)
-        mote_text_add(text, "%sanswers differ: contact or none, at frame %u", separator,
+        mote_text_add(text, "answers differ by up to %.2g L, at frame %u", row->worst,
                       row->worst_frame);
+    else if (row->worst > MOTE_RACE_EXACT)
+        mote_text_add(text, "answers differ: contact or none, at frame %u", row->worst_frame);
     else if (row->worst > 0)
-        mote_text_add(text, "%sanswers differ by rounding (%.2g L)", separator, row->worst);
+        mote_text_add(text, "answers differ by rounding (%.2g L)", row->worst);
 }
 
 /* Says why the time changed, as far as counts and instructions show it. */

@@ -39,22 +39,10 @@ char *mote_race_row_key(const char *name)
     return key.data;
 }
 
-static const char *text_at(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
-static double number_at(const json_t *object, const char *key)
-{
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
-}
-
 static int by_date(const void *a, const void *b)
 {
-    return strcmp(text_at(((const mote_race_file *)a)->json, "date"),
-                  text_at(((const mote_race_file *)b)->json, "date"));
+    return strcmp(mote_text_at(((const mote_race_file *)a)->json, "date"),
+                  mote_text_at(((const mote_race_file *)b)->json, "date"));
 }
 
 /* Reads a file into the list. */
@@ -78,24 +66,33 @@ static mote_status read_race(const char *folder, const char *name, mote_race_fil
     return MOTE_OK;
 }
 
-/* Lists the names of all rows. */
+/* Lists the names of all rows, the first of those with one key. */
 static void list_names(mote_race_files *files)
 {
-    size_t capacity = 0, i;
+    size_t capacity = 0, key_capacity = 0, i;
+    char **keys = NULL; /* [name_count] */
     const json_t *row;
     for (size_t r = 0; r < files->count; ++r) {
         MOTE_EACH(i, row, json_object_get(files->races[r].json, "rows"))
         {
-            const char *name = text_at(row, "name");
+            const char *name = mote_text_at(row, "name");
+            char *key = mote_race_row_key(name);
             size_t k = 0;
-            while (k < files->name_count && strcmp(files->names[k], name) != 0)
+            while (k < files->name_count && strcmp(keys[k], key) != 0)
                 ++k;
-            if (k < files->name_count)
+            if (k < files->name_count) {
+                free(key);
                 continue;
+            }
             files->names = mote_reserve(files->names, k + 1, &capacity, sizeof *files->names);
+            keys = mote_reserve(keys, k + 1, &key_capacity, sizeof *keys);
+            keys[k] = key;
             files->names[files->name_count++] = name;
         }
     }
+    for (size_t k = 0; k < files->name_count; ++k)
+        free(keys[k]);
+    free(keys);
 }
 
 mote_status mote_race_files_read(const char *folder, mote_race_files *files)
@@ -146,15 +143,15 @@ mote_race_point mote_race_files_point(const mote_race_files *files, size_t race,
     const json_t *row;
     MOTE_EACH(i, row, json_object_get(files->races[race].json, "rows"))
     {
-        char *own = mote_race_row_key(text_at(row, "name"));
+        char *own = mote_race_row_key(mote_text_at(row, "name"));
         const bool found = strcmp(own, key) == 0;
         free(own);
         if (found)
             return (mote_race_point){
-                .ratio = number_at(row, "ratio"),
-                .interval = {number_at(row, "ci_low"), number_at(row, "ci_high")},
-                .verdict = text_at(row, "verdict"),
-                .what = text_at(row, "what")};
+                .ratio = mote_number_at(row, "ratio"),
+                .interval = {mote_number_at(row, "ci_low"), mote_number_at(row, "ci_high")},
+                .verdict = mote_text_at(row, "verdict"),
+                .what = mote_text_at(row, "what")};
     }
     return none;
 }
@@ -167,10 +164,10 @@ char *mote_race_files_changes(const mote_race_files *files, size_t race)
     mote_text_add(&text, "%s", "");
     MOTE_EACH(i, row, json_object_get(files->races[race].json, "rows"))
     {
-        const char *verdict = text_at(row, "verdict");
+        const char *verdict = mote_text_at(row, "verdict");
         if (json_is_true(json_object_get(row, "worse")) || strcmp(verdict, "faster") == 0)
-            mote_text_add(&text, "%s%s %s (%.4g)", text.size ? "; " : "", text_at(row, "name"),
-                          verdict, number_at(row, "ratio"));
+            mote_text_add(&text, "%s%s %s (%.4g)", text.size ? "; " : "",
+                          mote_text_at(row, "name"), verdict, mote_number_at(row, "ratio"));
     }
     return text.data;
 }

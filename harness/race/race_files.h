@@ -13,7 +13,7 @@ typedef struct mote_race_file {
 typedef struct mote_race_files {
     mote_race_file *races; /* [count], by date */
     size_t count;
-    const char **names; /* names of all rows, without repetition; borrowed from the races */
+    const char **names; /* of all rows, one for each key; borrowed from the races */
     size_t name_count;
 } mote_race_files;
 

@@ -1,10 +1,10 @@
 #include "harness/race/race_print.h"
 
+#include "harness/base/clock.h"
 #include "harness/base/record.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 static const char *verdict_of(const mote_race *race)
 {
@@ -59,7 +59,7 @@ void mote_race_print(const mote_race_options *options, const mote_race *race, FI
 static json_t *counts_json(const mote_race_row *row)
 {
     json_t *counts = json_object();
-    for (size_t k = 0; counts && k < row->count_count; ++k)
+    for (size_t k = 0; k < row->count_count; ++k)
         (void)json_object_set_new(
             counts, row->counts[k].name,
             json_pack("[f, f]", row->counts[k].sum[0], row->counts[k].sum[1]));
@@ -87,13 +87,10 @@ static json_t *row_json(const mote_race_options *options, const mote_race_row *r
 json_t *mote_race_json(const mote_race_options *options, const mote_race *race,
                        const char *const labels[2])
 {
-    char date[32] = "";
-    const time_t now = time(NULL);
-    struct tm utc;
-    if (gmtime_r(&now, &utc))
-        (void)strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    char date[MOTE_CLOCK_DATE];
+    mote_clock_date(date);
     json_t *rows = json_array();
-    for (size_t i = 0; rows && i < race->count; ++i)
+    for (size_t i = 0; i < race->count; ++i)
         (void)json_array_append_new(rows, row_json(options, &race->rows[i]));
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:[i, i], s:s, s:f, s:f, s:f, s:i, s:f, s:o}", "schema", 1,

@@ -4,6 +4,7 @@
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/process/child.h"
+#include "harness/process/spawn.h"
 #include "harness/race/protocol.h"
 
 #include <assert.h>
@@ -26,7 +27,6 @@
 #define ENVIRONMENT_BYTES 4096
 #define STACK_BYTES 4096
 #define HEAP_BYTES 65536
-#define STATUS_NOT_RUN 127
 /* How long a process that has closed its output may take to end. */
 #define GRACE_SECONDS 1.0
 
@@ -61,14 +61,14 @@ static _Noreturn void be_racer(const start *s)
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != s->parent || dup2(s->in, STDIN_FILENO) < 0 ||
         dup2(s->out, STDOUT_FILENO) < 0)
-        _exit(STATUS_NOT_RUN);
+        _exit(MOTE_SPAWN_NOT_RUN);
     /* Everything it has to say is in its answers. */
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (dup2(nowhere, STDERR_FILENO) < 0 || setenv("MOTE_RACE_PADDING", s->padding, 1) != 0)
-        _exit(STATUS_NOT_RUN);
-    (void)execl(s->program, s->program, "race-child", "--core", s->core, "--stack", s->stack,
-                "--heap", s->heap, (char *)NULL);
-    _exit(STATUS_NOT_RUN);
+        _exit(MOTE_SPAWN_NOT_RUN);
+    const char *const argv[] = {s->program, "race-child", "--core", s->core, "--stack",
+                                s->stack,   "--heap",     s->heap,  NULL};
+    mote_spawn_become(argv);
 }
 
 static mote_status launch(const start *plan_made, mote_racer *racer)
@@ -105,13 +105,11 @@ static mote_status launch(const start *plan_made, mote_racer *racer)
 
 void mote_racer_stop(mote_racer *racer)
 {
-    int ended;
     if (racer->pid > 0) {
         (void)close(racer->to);
         (void)close(racer->from);
         (void)kill(racer->pid, SIGKILL);
-        while (waitpid(racer->pid, &ended, 0) < 0 && errno == EINTR) {
-        }
+        (void)mote_spawn_wait(racer->pid);
     }
     free(racer->text.data);
     *racer = (mote_racer){0};
@@ -194,18 +192,29 @@ static mote_status hear(mote_racer *racer, char **line)
     }
 }
 
-mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format, ...)
+MOTE_PRINTF(2, 0)
+static mote_status send_line(mote_racer *racer, const char *format, va_list arguments)
 {
     char line[8192];
-    va_list arguments;
-    va_start(arguments, format);
     const int size = vsnprintf(line, sizeof line - 1, format, arguments);
-    va_end(arguments);
-    if (size < 0 || (size_t)size >= sizeof line - 1)
+    if ((size_t)size >= sizeof line - 1)
         return mote_fail(MOTE_EINVAL, "%s: names that are too long", racer->program);
     line[size] = '\n';
-    if (mote_child_put(racer->to, line, (size_t)size + 1) != MOTE_OK)
-        return fail_ended(racer);
+    return mote_child_put(racer->to, line, (size_t)size + 1) == MOTE_OK ? MOTE_OK
+                                                                        : fail_ended(racer);
+}
+
+mote_status mote_racer_send(mote_racer *racer, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const mote_status status = send_line(racer, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+mote_status mote_racer_hear(mote_racer *racer, char **answer)
+{
     char *heard = NULL;
     const mote_status status = hear(racer, &heard);
     if (status != MOTE_OK)
@@ -217,6 +226,15 @@ mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format,
         return fail_stopped(racer, "an answer that cannot be read");
     *answer = heard + 3;
     return MOTE_OK;
+}
+
+mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const mote_status status = send_line(racer, format, arguments);
+    va_end(arguments);
+    return status == MOTE_OK ? mote_racer_hear(racer, answer) : status;
 }
 
 static mote_status check_greeting(mote_racer *racer, const char *greeting)
@@ -246,12 +264,14 @@ mote_status mote_racer_start(const char *program, int core, double timeout, mote
     *racer = (mote_racer){.program = program, .timeout = timeout};
     if (access(program, X_OK) != 0)
         return mote_fail(MOTE_EIO, "%s: cannot be run: %s", program, strerror(errno));
-    mote_status status = launch(&s, racer);
-    if (status != MOTE_OK)
-        return status;
+    return launch(&s, racer);
+}
+
+mote_status mote_racer_greet(mote_racer *racer)
+{
     char *greeting = NULL;
-    status = hear(racer, &greeting);
-    if (status != MOTE_OK && racer->pid == 0 && !mote_child_stop_asked()) {
+    const mote_status status = hear(racer, &greeting);
+    if (status != MOTE_OK && !mote_child_stop_asked()) {
         char said[256];
         (void)snprintf(said, sizeof said, "%s", mote_error_text());
         return mote_fail(MOTE_EIO,

@@ -71,7 +71,7 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     plain(facts.name, name, sizeof name);
     plain(asked->name, method, sizeof method);
     (void)snprintf(cell->id, sizeof cell->id, "%s-%s-r%u-%016" PRIx64, name, method,
-                   cell->replicate, text.data ? mote_hash_text(text.data) : 0);
+                   cell->replicate, mote_hash_text(text.data));
     free(text.data);
 }
 
@@ -135,7 +135,7 @@ bool mote_cell_told_positions(const mote_cell *cell)
     return !field;
 }
 
-/* The facts known about a cell before it runs. */
+/* The facts known about a cell before it runs; NULL if a name is not UTF-8. */
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
     const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
@@ -158,13 +158,11 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         "scenario_frames", (int)facts.frames, "active", active_json(cell, &facts), "program",
         hash, "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
         cell->fixed_seed);
-    if (object)
-        (void)json_object_set_new(
-            object, "told",
-            json_string(mote_cell_told_positions(cell) ? "positions" : "field"));
-    if (object && cell->step > 0)
+    (void)json_object_set_new(
+        object, "told", json_string(mote_cell_told_positions(cell) ? "positions" : "field"));
+    if (cell->step > 0)
         (void)json_object_set_new(object, "step", json_integer(cell->step));
-    if (object && of_scene) {
+    if (of_scene) {
         (void)json_object_set_new(object, "bodies", json_integer(facts.bodies));
         (void)json_object_set_new(object, "shapes",
                                   json_integer(cell->subject->bodies->shape_count));
@@ -321,7 +319,7 @@ mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status sta
                                      const char *directory)
 {
     json_t *object = cell_json(cell, status, program);
-    if (object && json_object_set_new(object, "reason", json_string(reason)) != 0) {
+    if (json_object_set_new(object, "reason", json_string(reason)) != 0) {
         json_decref(object);
         object = NULL;
     }

@@ -30,13 +30,34 @@ static mote_status check_threads(const mote_method_choice *choice)
     return MOTE_OK;
 }
 
+/* The cell in which the method answers about these frames. */
+static mote_cell cell_of(const mote_subject *subject, const mote_method_choice *choice,
+                         uint32_t first, uint32_t last)
+{
+    const uint32_t step = mote_subject_step(subject);
+    return (mote_cell){.subject = subject,
+                       .choice = choice,
+                       .replicate = 1,
+                       .first = first,
+                       .last = last,
+                       .step = step,
+                       .stride = step ? step : 1,
+                       .seed = 1};
+}
+
+/* Sets how many questions there are within the frames. */
 static mote_status check_frames(const char *scenario, const mote_subject *subject,
-                                uint32_t first, uint32_t last)
+                                uint32_t first, uint32_t last, uint32_t *questions)
 {
     const uint32_t frames = mote_subject_facts_of(subject).frames;
+    const mote_cell cell = cell_of(subject, NULL, first, last);
     if (last > frames)
         return mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u", first,
                          last, scenario, frames);
+    *questions = mote_cell_rows(&cell);
+    if (*questions == 0)
+        return mote_fail(MOTE_EINVAL, "frames %u-%u: %s asks for impacts within %u frames",
+                         first, last, scenario, cell.step);
     return MOTE_OK;
 }
 
@@ -44,19 +65,14 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
                                   const mote_method_choice *choice)
 {
     mote_subject subject = {0};
+    uint32_t questions;
     mote_status status = check_threads(choice);
     if (status == MOTE_OK)
         status = mote_subject_open(scenario, &subject);
     if (status == MOTE_OK)
-        status = check_frames(scenario, &subject, first, last);
+        status = check_frames(scenario, &subject, first, last, &questions);
     if (status == MOTE_OK) {
-        const mote_cell cell = {.subject = &subject,
-                                .choice = choice,
-                                .replicate = 1,
-                                .first = first,
-                                .last = last,
-                                .stride = 1,
-                                .seed = 1};
+        const mote_cell cell = cell_of(&subject, choice, first, last);
         mote_cell_result result;
         status = mote_measure_cell(&cell, 0, &result);
         if (status == MOTE_OK)
@@ -68,12 +84,12 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
 
 /* Refuses a scenario, frames or a method before anything is written. */
 static mote_status check_input(const char *scenario, uint32_t first, uint32_t last,
-                               const mote_choices *choices)
+                               const mote_choices *choices, uint32_t *questions)
 {
     mote_subject subject = {0};
     mote_status status = mote_subject_open(scenario, &subject);
     if (status == MOTE_OK)
-        status = check_frames(scenario, &subject, first, last);
+        status = check_frames(scenario, &subject, first, last, questions);
     mote_subject_free(&subject);
     for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i)
         status = check_threads(&choices->items[i]);
@@ -176,7 +192,8 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
 {
     char frames[32];
     (void)snprintf(frames, sizeof frames, "%u-%u", first, last);
-    mote_status status = check_input(scenario, first, last, choices);
+    uint32_t questions = 0;
+    mote_status status = check_input(scenario, first, last, choices, &questions);
     if (status == MOTE_OK)
         status = mote_directory_make(directory);
     json_t *rows = status == MOTE_OK ? read_rows(directory) : NULL;
@@ -186,7 +203,7 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
         status = count_one(scenario, frames, choice->text, directory, &count);
         if (status != MOTE_OK)
             break;
-        double per_frame = (double)count / (double)(last - first + 1);
+        double per_frame = (double)count / questions;
         (void)printf("%-40s %14.0f instructions a frame\n", choice->text, per_frame);
         (void)fflush(stdout);
         put_row(rows,

@@ -163,9 +163,9 @@ static uint32_t step_count(const mote_plan_options *options, const mote_subject 
 static uint32_t step_of(const mote_plan_options *options, const mote_subject *subject,
                         uint32_t k)
 {
-    if (!mote_subject_asks_impacts(subject))
-        return 0;
-    return options->step_count > 0 ? options->steps[k] : subject->scenario->step;
+    return options->step_count > 0 && mote_subject_asks_impacts(subject)
+               ? options->steps[k]
+               : mote_subject_step(subject);
 }
 
 /* The cells of one scenario, step and replicate. */

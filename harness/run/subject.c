@@ -13,6 +13,11 @@ bool mote_subject_asks_impacts(const mote_subject *subject)
     return subject->scenario && subject->scenario->ask == MOTE_ASK_IMPACT;
 }
 
+uint32_t mote_subject_step(const mote_subject *subject)
+{
+    return mote_subject_asks_impacts(subject) ? subject->scenario->step : 0;
+}
+
 mote_status mote_subject_identify(mote_subject *subject)
 {
     if (subject->bodies)

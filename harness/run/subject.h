@@ -23,6 +23,9 @@ typedef struct mote_subject {
 /* Whether it asks for impacts. */
 bool mote_subject_asks_impacts(const mote_subject *subject);
 
+/* The frames that a question spans: the scenario's step if it asks for impacts, otherwise 0. */
+uint32_t mote_subject_step(const mote_subject *subject);
+
 /* mote_subject_open loads a scenario of two or more bodies (names as for mote_scenario_load and
    mote_bodies_load); mote_subject_identify computes its fingerprint, which reads its frames;
    mote_subject_load does both. Free with mote_subject_free even after a failure. */

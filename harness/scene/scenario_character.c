@@ -105,10 +105,12 @@ static mote_status read_play(const mote_json *body, mote_player *player)
     if (status == MOTE_OK && key.value)
         status = mote_json_real(&key, -1e3, 1e3, &player->speed);
     key = mote_json_member(body, "loop");
-    if (status == MOTE_OK && key.value && !json_is_boolean(key.value))
-        status = mote_json_fail(&key, "not true or false");
-    if (status == MOTE_OK && key.value)
-        player->loop = json_is_true(key.value);
+    if (status == MOTE_OK && key.value) {
+        const json_type type = json_typeof(key.value);
+        player->loop = type == JSON_TRUE;
+        if (type != JSON_TRUE && type != JSON_FALSE)
+            status = mote_json_fail(&key, "not true or false");
+    }
     return status;
 }
 

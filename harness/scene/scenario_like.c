@@ -19,7 +19,7 @@ static json_t *merge_objects(const json_t *base, const json_t *over)
     for (; walk; walk = json_object_iter_next((json_t *)(uintptr_t)over, walk)) {
         const char *key = json_object_iter_key(walk);
         const json_t *value = json_object_iter_value(walk);
-        if (json_is_null(value))
+        if (json_typeof(value) == JSON_NULL)
             (void)json_object_del(result, key);
         else
             (void)json_object_set_new(
@@ -31,9 +31,10 @@ static json_t *merge_objects(const json_t *base, const json_t *over)
 
 static json_t *merge(const json_t *base, const json_t *over, bool element_wise)
 {
-    if (json_is_object(over))
+    if (json_typeof(over) == JSON_OBJECT)
         return merge_objects(base, over);
-    if (!element_wise || !json_is_array(over) || json_array_size(base) != json_array_size(over))
+    if (!element_wise || json_typeof(over) != JSON_ARRAY ||
+        json_array_size(base) != json_array_size(over))
         return json_deep_copy(over);
     json_t *result = json_array();
     for (size_t i = 0; i < json_array_size(over); ++i)
@@ -61,16 +62,18 @@ static bool move_name(json_t *object, const char *key, const char *path)
     return set;
 }
 
-/* Rewrites the names of meshes and poses, which are relative to the file that contains them.
-   path: of the other scenario, absolute or relative to this one's folder. */
+/* Rewrites the names of meshes, positions and poses, which are relative to the file that
+   contains them. path: of the other scenario, absolute or relative to this one's folder. */
 static bool move_files(json_t *root, const char *path)
 {
     json_t *bodies = json_object_get(root, "bodies");
     json_t *list = json_is_object(bodies) ? json_object_get(bodies, "shapes") : bodies;
     bool moved = move_name(bodies, "poses", path);
-    for (size_t i = 0; i < json_array_size(list) && moved; ++i)
-        moved = move_name(json_array_get(list, i), "file", path) &&
-                move_name(json_array_get(list, i), "character", path);
+    static const char *const keys[] = {"file", "positions", "character"};
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        for (size_t k = 0; k < sizeof keys / sizeof keys[0] && moved; ++k)
+            moved = move_name(json_array_get(list, i), keys[k], path);
+    }
     return moved;
 }
 

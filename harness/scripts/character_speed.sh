@@ -3,7 +3,7 @@
 # whose trees are built at rest and by sample poses. Prints a table, which OUT/characters.md keeps: of each
 # scenario, the median and 95th percentile of certified, the times of the faster tree of either kind as
 # multiples of it, and the bytes a vertex. A stopped run is continued. quick: the smallest size of both
-# characters, 120 frames once; full: three sizes and the hands, all frames, three times. SCENARIOS names
+# characters in both scenes, 120 frames once; full: all sizes and the hands, all frames, three times. SCENARIOS names
 # others. PAGE (docs/characters.md) gets the table between its two lines of marks.
 set -eu
 mote=$1
@@ -13,9 +13,10 @@ page=${4:-}
 . "$(dirname "$0")/measure.sh"
 
 case $profile in
-quick) set -- bison-15k jumper-20k -- --frames 1-120 --replicates 1 ;;
+quick) set -- bison-15k jumper-20k bison-near-15k jumper-near-20k -- --frames 1-120 --replicates 1 ;;
 paper | full)
-    set -- bison-15k bison-60k bison-240k jumper-20k jumper-80k jumper-330k hands hand-shapes -- --replicates 3
+    set -- bison-near-15k jumper-near-20k jumper-near-330k bison-15k bison-60k bison-240k jumper-20k jumper-80k \
+        jumper-330k hands hand-shapes -- --replicates 3
     ;;
 *)
     echo "character_speed.sh: unknown profile '$profile'; choose quick, paper or full" >&2

@@ -1,10 +1,12 @@
 #!/bin/sh
 # perf_study.sh BUILD OUT RACES PLANTED [record]: measures how often the verdicts of races are wrong
-# (make perf-study). Races already in OUT/races.csv are not repeated. record: into results/reference.
+# (make perf-study). Races already in OUT/races.csv are not repeated. record: into results/reference,
+# going on from there if OUT is new.
 set -eu
 build=$1
 out=$2
 mkdir -p "$out"
+[ "${5:-}" != record ] || [ -f "$out/races.csv" ] || cp results/reference/races.csv "$out/races.csv"
 harness/scripts/relink.sh "$build" 12 "$out/programs" tests/race_planted
 "$build/tests/race_study" run "$out/programs" "$out" "$3" "$4"
 if [ "${5:-}" = record ]; then

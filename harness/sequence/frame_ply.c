@@ -247,9 +247,10 @@ static mote_status next_number(ply *p, number_type type, double *value)
 static mote_status ends_early(const ply *p, const element *e, uint64_t number)
 {
     const char *name = e->is_vertex ? "vertex" : e->is_face ? "face" : "entry";
+    const bool ends =
+        !p->ascii || p->at >= p->end; /* any bytes of a binary file are a number */
     return fail(p, "%s after %s %" PRIu64 " of %" PRIu64 "; give all, or declare fewer",
-                p->at >= p->end ? "ends" : "has something that is not a number", name, number,
-                e->count);
+                ends ? "ends" : "has something that is not a number", name, number, e->count);
 }
 
 static mote_status end_face(ply *p, uint64_t number, size_t corners)

@@ -204,6 +204,9 @@ static mote_status wait_for(mote_sequence_reader *r, reply *said)
         const ssize_t got = recv(r->socket, said, sizeof *said, 0);
         if (got < 0 && errno == EINTR)
             continue;
+        /* A child that ends before it has read the question resets the connection. */
+        if (got < 0 && errno != ECONNRESET)
+            return mote_fail(MOTE_EIO, "reading it: %s", strerror(errno));
         if (got == (ssize_t)sizeof *said)
             return MOTE_OK;
         size_t index;

@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_DYNAMICS_H
 #define MOTE_HARNESS_DYNAMICS_H
 
+#include "harness/base/clock.h"
 #include "harness/loop/approaches.h"
 #include "harness/study/claim.h"
 
@@ -14,11 +15,11 @@ typedef struct mote_dynamics_row {
     uint32_t wanted; /* number of approaches that should come to a contact */
     double step;     /* frames, and what happens within them */
     mote_simulation_steps within;
-    bool exact;          /* an exact method: must let nothing pass through */
-    bool paper;          /* whether the scene is one of the paper's */
-    mote_approaches sum; /* what was measured */
-    char measured[32];   /* time: "2026-01-31T12:00:00Z" */
-    char commit[64];     /* commit of the sources; "" if unknown */
+    bool exact;                     /* an exact method: must let nothing pass through */
+    bool paper;                     /* whether the scene is one of the paper's */
+    mote_approaches sum;            /* what was measured */
+    char measured[MOTE_CLOCK_DATE]; /* time: "2026-01-31T12:00:00Z" */
+    char commit[64];                /* commit of the sources; "" if unknown */
 } mote_dynamics_row;
 
 /* A row's name: its method, and what happens within its steps. */

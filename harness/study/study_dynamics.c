@@ -13,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 typedef struct study {
@@ -94,11 +93,7 @@ static mote_status load(study *s, const char *scene)
 static mote_status measure(study *s, mote_dynamics_row *row)
 {
     const uint64_t start = mote_clock_ns();
-    const time_t now = time(NULL);
-    struct tm utc;
-    if (!gmtime_r(&now, &utc) ||
-        strftime(row->measured, sizeof row->measured, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
-        row->measured[0] = '\0';
+    mote_clock_date(row->measured);
     (void)snprintf(row->commit, sizeof row->commit, "%s", s->commit);
     char label[MOTE_DYNAMICS_LABEL];
     mote_dynamics_label(row, label);

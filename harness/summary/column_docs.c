@@ -60,7 +60,7 @@ static json_t *value_schema(const mote_column *column)
     char *says = column->meaning ? mote_format("%s%s%s", column->meaning,
                                                column->unit[0] ? "; in " : "", column->unit)
                                  : NULL;
-    if (schema && says)
+    if (says)
         (void)json_object_set_new(schema, "description", json_string(says));
     free(says);
     return schema;
@@ -93,7 +93,7 @@ static json_t *object_schema(json_t *row, const mote_column *column)
 json_t *mote_columns_schema(void)
 {
     json_t *row = json_pack("{s:s, s:{}, s:[]}", "type", "object", "properties", "required");
-    for (size_t i = 0; row && i < mote_column_count; ++i) {
+    for (size_t i = 0; i < mote_column_count; ++i) {
         const mote_column *column = &mote_columns[i];
         if (column->object)
             add_member(object_schema(row, column), column->key, value_schema(column), true);

@@ -164,7 +164,7 @@ static void read_counters(const json_t *value, mote_summary_row *row)
 {
     const char *name;
     json_t *count;
-    json_object_foreach((json_t *)(uintptr_t)value, name, count)
+    MOTE_EACH_MEMBER(name, count, (json_t *)(uintptr_t)value)
     {
         mote_row_count *to = count_named(row, name);
         to->mean = mote_number_at(count, "mean");
@@ -177,9 +177,10 @@ static void read_processes(const json_t *value, mote_summary_row *row)
     const size_t processes = json_array_size(value);
     for (size_t p = 0; p < processes; ++p) {
         const char *name;
-        json_t *sum;
-        json_object_foreach(json_object_get(json_array_get(value, p), "counters"), name, sum)
+        const json_t *sum;
+        MOTE_EACH_MEMBER(name, sum, json_object_get(json_array_get(value, p), "counters"))
         {
+            (void)sum;
             (void)count_named(row, name);
         }
     }

@@ -32,7 +32,7 @@ static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
     const mote_method *method = mote_method_find(a->method);
     const char *key;
     json_t *value;
-    json_object_foreach(a->parameters, key, value)
+    MOTE_EACH_MEMBER(key, value, a->parameters)
     {
         const json_t *other = json_object_get(b->parameters, key);
         bool same = other && json_equal(value, other);

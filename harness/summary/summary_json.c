@@ -13,10 +13,9 @@ static json_t *object_of(json_t *row, const mote_column *column)
 {
     if (!column->object)
         return row;
-    json_t *object = json_object_get(row, column->object);
-    if (!object && json_object_set_new(row, column->object, json_object()) == 0)
-        object = json_object_get(row, column->object);
-    return object;
+    if (!json_object_get(row, column->object))
+        (void)json_object_set_new(row, column->object, json_object());
+    return json_object_get(row, column->object);
 }
 
 json_t *mote_summary_row_json(const mote_summary_row *row)

@@ -293,7 +293,7 @@ static char *make_label(const mote_stored_cell *cell)
     const char *key;
     json_t *value;
     char separator = ':';
-    json_object_foreach(cell->parameters, key, value)
+    MOTE_EACH_MEMBER(key, value, cell->parameters)
     {
         bool usual;
         char *shown = value_text(method, key, value, &usual);

@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, realpath */
+#define _GNU_SOURCE /* MAP_ANONYMOUS, realpath, pipe2 */
 #include "tests/faults/fault_points.h"
 
 #include "harness/base/hash.h"
@@ -16,7 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,12 +42,19 @@ typedef enum function {
     STAT,
     OPENDIR,
     PIPE,
+    PIPE2,
     FORK,
     POLL,
     WAITPID,
     READLINK,
     REALPATH,
     GETCWD,
+    SOCKETPAIR,
+    SEND,
+    RECV,
+    PREAD,
+    UNAME,
+    GETLOADAVG,
     FUNCTIONS
 } function;
 
@@ -72,12 +81,19 @@ static const struct {
     [STAT] = {"stat", EIO, false, false},
     [OPENDIR] = {"opendir", EMFILE, false, false},
     [PIPE] = {"pipe", EMFILE, false, false},
+    [PIPE2] = {"pipe2", EMFILE, false, false},
     [FORK] = {"fork", EAGAIN, false, false},
     [POLL] = {"poll", 0, true, false},
     [WAITPID] = {"waitpid", 0, true, false},
     [READLINK] = {"readlink", EACCES, false, false},
     [REALPATH] = {"realpath", EACCES, false, false},
     [GETCWD] = {"getcwd", EACCES, false, false},
+    [SOCKETPAIR] = {"socketpair", EMFILE, false, false},
+    [SEND] = {"send", ENOBUFS, false, false},
+    [RECV] = {"recv", ENOMEM, true, false},
+    [PREAD] = {"pread", EIO, true, true},
+    [UNAME] = {"uname", EFAULT, false, false},
+    [GETLOADAVG] = {"getloadavg", ENOENT, false, false},
 };
 
 typedef struct point {
@@ -274,6 +290,11 @@ WRAP(int, pipe, int ends[2])
     return fails(PIPE) ? -1 : __real_pipe(ends);
 }
 
+WRAP(int, pipe2, int ends[2], int flags)
+{
+    return fails(PIPE2) ? -1 : __real_pipe2(ends, flags);
+}
+
 WRAP(pid_t, fork, void)
 {
     return fails(FORK) ? -1 : __real_fork();
@@ -308,6 +329,38 @@ WRAP(char *, realpath, const char *path, char *resolved)
 WRAP(char *, getcwd, char *path, size_t size)
 {
     return fails(GETCWD) ? NULL : __real_getcwd(path, size);
+}
+
+WRAP(int, socketpair, int domain, int type, int protocol, int ends[2])
+{
+    return fails(SOCKETPAIR) ? -1 : __real_socketpair(domain, type, protocol, ends);
+}
+
+WRAP(ssize_t, send, int socket, const void *data, size_t size, int flags)
+{
+    return fails(SEND) ? -1 : __real_send(socket, data, size, flags);
+}
+
+WRAP(ssize_t, recv, int socket, void *data, size_t size, int flags)
+{
+    return fails(RECV) ? -1 : __real_recv(socket, data, size, flags);
+}
+
+WRAP(ssize_t, pread, int file, void *data, size_t size, off_t place)
+{
+    if (mode_now == FAULT_SHORT)
+        return __real_pread(file, data, size > 1 && is_due(PREAD) ? 1 : size, place);
+    return fails(PREAD) ? -1 : __real_pread(file, data, size, place);
+}
+
+WRAP(int, uname, struct utsname *system)
+{
+    return fails(UNAME) ? -1 : __real_uname(system);
+}
+
+WRAP(int, getloadavg, double averages[], int count)
+{
+    return fails(GETLOADAVG) ? -1 : __real_getloadavg(averages, count);
 }
 
 #ifdef MOTE_COVERAGE

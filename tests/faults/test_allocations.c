@@ -5,6 +5,7 @@
 #include "core/body/csrbf_fit.h"
 #include "core/base/frame_queue.h"
 #include "core/body/lazy.h"
+#include "core/body/leaf_order.h"
 #include "core/particle/levels.h"
 #include "core/base/linear_algebra.h"
 #include "core/body/mass.h"
@@ -15,15 +16,13 @@
 #include "core/base/pool.h"
 #include "core/particle/start.h"
 #include "tests/support/crowd.h"
-#include "tests/faults/failing.h"
+#include "tests/faults/failing_threads.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
 
-#include <errno.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <pthread.h>
 #include <stdio.h>
 
 /* Calls of the other kinds left before one fails. */
@@ -35,16 +34,12 @@ gsl_eigen_symmv_workspace *__real_gsl_eigen_symmv_alloc(size_t size);
 int __real_gsl_linalg_cholesky_rcond(const gsl_matrix *factor, double *rcond, gsl_vector *work);
 int __real_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vectors,
                            gsl_eigen_symmv_workspace *work);
-int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *argument);
 gsl_matrix *__wrap_gsl_matrix_alloc(size_t rows, size_t columns);
 gsl_vector *__wrap_gsl_vector_alloc(size_t size);
 gsl_eigen_symmv_workspace *__wrap_gsl_eigen_symmv_alloc(size_t size);
 int __wrap_gsl_linalg_cholesky_rcond(const gsl_matrix *factor, double *rcond, gsl_vector *work);
 int __wrap_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vectors,
                            gsl_eigen_symmv_workspace *work);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *argument);
 
 gsl_matrix *__wrap_gsl_matrix_alloc(size_t rows, size_t columns)
 {
@@ -72,13 +67,6 @@ int __wrap_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vector
 {
     return is_due(&others_left) ? GSL_EMAXITER
                                 : __real_gsl_eigen_symmv(a, values, vectors, work);
-}
-
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
-                          void *(*run)(void *), void *argument)
-{
-    return is_due(&others_left) ? EAGAIN
-                                : __real_pthread_create(thread, attributes, run, argument);
 }
 
 /* The C++ ABI names of operator new and std::bad_alloc, on systems whose size_t is an unsigned
@@ -238,6 +226,26 @@ TEST(levels_when_an_allocation_fails_say_so)
     mote_mesh_destroy(mesh);
 }
 
+/* The order of a mesh's triangles, of a body with a sample pose. */
+static mote_status make_order(void *context)
+{
+    uint32_t order[400];
+    return mote_leaf_order(context, 4, order);
+}
+
+TEST(leaf_order_when_an_allocation_fails_says_so)
+{
+    uint64_t seed = 4;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 5, &seed);
+    assert_true(b.mesh->triangle_count <= 400);
+    const mote_weights sample = test_body_state(&b, 1, &seed).weights;
+    b.body.samples = &sample;
+    b.body.sample_count = 1;
+    fail_each_allocation(make_order, &b.body, "mote_leaf_order");
+    test_body_free(&b);
+}
+
 static mote_status make_queue_and_pool(void *context)
 {
     (void)context;
@@ -263,11 +271,11 @@ TEST(pool_when_a_thread_cannot_be_started_says_which)
         char expected[80];
         (void)snprintf(expected, sizeof expected, "only %ld of 4 threads could be started",
                        n + 1);
-        others_left = n;
+        threads_left = n;
         assert_int_equal(mote_pool_create(4, &pool), MOTE_ENOMEM);
         assert_string_equal(mote_error_text(), expected);
         assert_null(pool);
-        assert_int_equal(others_left, never);
+        assert_int_equal(threads_left, never);
     }
 }
 
@@ -333,23 +341,6 @@ TEST(scene_query_out_of_memory_keeps_all_states)
     crowd_free(&c);
 }
 
-typedef struct method_work {
-    const mote_method *method;
-    mote_setup setup;
-} method_work;
-
-static mote_status make_method(void *context)
-{
-    const method_work *w = context;
-    void *made = NULL;
-    const mote_status status = mote_method_create(w->method, &w->setup, &made);
-    if (status == MOTE_OK)
-        mote_method_destroy(w->method, made);
-    else
-        assert_null(made);
-    return status;
-}
-
 /* Methods choose their own number of particles, which needs the convex parts of two meshes. */
 TEST(methods_when_an_allocation_fails_say_so)
 {
@@ -366,17 +357,17 @@ TEST(methods_when_an_allocation_fails_say_so)
     test_body_init(&b[0], solid_to_mesh(solid_icosahedron()), 4, &seed);
     test_body_init(&b[1], solid_to_mesh(solid_torus(4, 4)), -2, &seed);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-        double values[MOTE_PARAMETERS_MAX];
-        method_work w = {.method = method_with(cases[k].name, cases[k].keys, values)};
+        method_run w;
+        w.method = method_with(cases[k].name, cases[k].keys, w.values);
         w.setup = (mote_setup){.body = {&b[0].body, &b[1].body},
                                .length = fmax(b[0].mesh->diagonal, b[1].mesh->diagonal),
                                .seed = 1,
-                               .values = values};
-        fail_each_allocation(make_method, &w, cases[k].name);
+                               .values = w.values};
+        fail_each_allocation(method_run_build, &w, cases[k].name);
     }
     static const mote_method least = {.name = "least"}; /* its state is a copy of the setup */
-    method_work w = {.method = &least, .setup = {.length = 1}};
-    fail_each_allocation(make_method, &w, "least");
+    method_run w = {.method = &least, .setup = {.length = 1}};
+    fail_each_allocation(method_run_build, &w, "least");
     test_body_free(&b[0]);
     test_body_free(&b[1]);
 }

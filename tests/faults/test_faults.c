@@ -10,19 +10,23 @@
 #include "tests/support/test.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 /* Calls left before one fails; negative: none fails. */
 static long writes_left = -1;
+static int sync_error = EIO;
 
 ssize_t __real_write(int file, const void *data, size_t size);
 int __real_fsync(int file);
 int __real_rename(const char *from, const char *to);
+int __real_close(int file);
 ssize_t __wrap_write(int file, const void *data, size_t size);
 int __wrap_fsync(int file);
 int __wrap_rename(const char *from, const char *to);
+int __wrap_close(int file);
 
 ssize_t __wrap_write(int file, const void *data, size_t size)
 {
@@ -36,7 +40,7 @@ ssize_t __wrap_write(int file, const void *data, size_t size)
 int __wrap_fsync(int file)
 {
     if (is_due(&writes_left)) {
-        errno = EIO;
+        errno = sync_error;
         return -1;
     }
     return __real_fsync(file);
@@ -49,6 +53,17 @@ int __wrap_rename(const char *from, const char *to)
         return -1;
     }
     return __real_rename(from, to);
+}
+
+/* Of a file that was written to; the file is closed all the same. */
+int __wrap_close(int file)
+{
+    const bool written = (fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY;
+    const int closed = __real_close(file);
+    if (!written || !is_due(&writes_left))
+        return closed;
+    errno = EDQUOT;
+    return -1;
 }
 
 typedef struct method_work {
@@ -170,11 +185,59 @@ TEST(file_write_when_a_step_fails_leaves_the_file_whole)
         free(text);
         assert_int_equal(status, failed ? MOTE_EIO : MOTE_OK);
         if (!failed) {
-            assert_int_equal(n, 4); /* write, fsync, rename, fsync of the directory */
+            assert_int_equal(n, 5); /* write, fsync, close, rename, fsync of the directory */
             break;
         }
     }
     assert_int_equal(remove(path), 0);
+}
+
+TEST(file_write_tells_to_make_room_where_that_would_help)
+{
+    static const struct {
+        long call;
+        const char *says;
+    } rows[] = {
+        {0, "No space left on device; make room, or name a file elsewhere"},
+        {1, "Input/output error; name a file in a folder that exists and can be written to"},
+        {2, "Disk quota exceeded; make room, or name a file elsewhere"}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        writes_left = rows[i].call;
+        assert_int_equal(mote_file_write("file", "new", 3), MOTE_EIO);
+        writes_left = never;
+        assert_non_null(strstr(mote_error_text(), rows[i].says));
+        assert_false(file_exists("file"));
+    }
+}
+
+/* Some file systems cannot sync a directory. */
+TEST(file_write_where_directories_cannot_be_synced_is_done)
+{
+    sync_error = EINVAL;
+    writes_left = 4;
+    assert_int_equal(mote_file_write("file", "new", 3), MOTE_OK);
+    assert_true(writes_left < 0);
+    sync_error = EIO;
+    assert_int_equal(remove("file"), 0);
+}
+
+TEST(file_write_to_a_stream_tells_what_failed)
+{
+    static const char *const says[] = {"fifo: cannot be written: No space left on device",
+                                       "fifo: cannot be written: Disk quota exceeded"};
+    assert_int_equal(mkfifo("fifo", 0600), 0);
+    const int reader = open("fifo", O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    assert_true(reader >= 0);
+    for (long n = 0; n < 3; ++n) {
+        writes_left = n;
+        assert_int_equal(mote_file_write("fifo", "x", 1), n < 2 ? MOTE_EIO : MOTE_OK);
+        assert_int_equal(writes_left < 0, n < 2);
+        writes_left = never;
+        if (n < 2)
+            assert_non_null(strstr(mote_error_text(), says[n]));
+    }
+    assert_int_equal(close(reader), 0);
+    assert_int_equal(remove("fifo"), 0);
 }
 
 /* make reliability PLANT=1 plants this leak, which AddressSanitizer must find. */

@@ -13,9 +13,12 @@
 #include "harness/run/truth.h"
 #include "tests/support/test.h"
 
+#include <fcntl.h>
+#include <stdbool.h>
 #include <stddef.h>
-
 #include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static mote_scenario *scenario;
 
@@ -147,13 +150,30 @@ static int ask_machine(int argc, char **argv)
     return busy >= 0 && clock >= 0 && mote_load_average() >= 0 ? 0 : 1;
 }
 
+/* Writes to a stream, which must stay what it is, even where nobody can tell what it is. */
+static int write_stream(int argc, char **argv)
+{
+    (void)argc;
+    (void)argv;
+    struct stat info;
+    (void)unlink("fifo");
+    if (mkfifo("fifo", 0600) != 0)
+        return 77;
+    const int reader = open("fifo", O_RDWR); /* NOLINT(android-cloexec-open) */
+    if (reader < 0)                          /* then writing would wait for one */
+        return exit_code(mote_fail(MOTE_EIO, "fifo: cannot be opened"));
+    const mote_status status = mote_file_write("fifo", "x", 1);
+    const bool stayed = lstat("fifo", &info) == 0 && S_ISFIFO(info.st_mode);
+    (void)close(reader);
+    return stayed ? exit_code(status) : 77;
+}
+
 TEST(modules_when_a_call_fails_say_so)
 {
-    static const fault_line list[] = {{"the truth", keep_truth, 0},
-                                      {"the study's figure", draw_study, 0},
-                                      {"a variant", vary_scene, 0},
-                                      {"a claim's file", write_claim, 0},
-                                      {"the machine", ask_machine, 0}};
+    static const fault_line list[] = {
+        {"the truth", keep_truth, 0},    {"the study's figure", draw_study, 0},
+        {"a variant", vary_scene, 0},    {"a claim's file", write_claim, 0},
+        {"the machine", ask_machine, 0}, {"a stream", write_stream, 0}};
     FAIL_EACH(list);
 }
 

@@ -409,29 +409,21 @@ static bool write_many(void)
     return true;
 }
 
-static size_t count_of(const char *wanted)
-{
-    size_t count = 0;
-    for (const char *p = said; (p = strstr(p, wanted)) != NULL; p += strlen(wanted))
-        ++count;
-    return count;
-}
-
 TEST(figures_of_too_many_cells_take_the_first)
 {
     static const fault_line figures[] = {LINE(figures, " many", 0)};
     assert_true(write_many());
     assert_true(fault_lines_run(figures, 1));
     read_page("many/figures/size-time.dat");
-    assert_int_equal(count_of(" 1000 1000 1000\n"), 16 + 7 * 3); /* sizes; methods */
+    assert_int_equal(test_count(said, " 1000 1000 1000\n"), 16 + 7 * 3); /* sizes; methods */
     assert_null(strstr(said, "\"n7\""));
     assert_non_null(strstr(said, "\"n0\"\n")); /* only one size: no exponent */
     read_page("many/figures/size-bytes.dat");
-    assert_int_equal(count_of(" 1000 66.66"), 6); /* cells that reported their bytes */
+    assert_int_equal(test_count(said, " 1000 66.66"), 6); /* cells that reported their bytes */
     read_page("many/figures/shares-families.dat");
-    assert_int_equal(count_of("\n"), 16);
+    assert_int_equal(test_count(said, "\n"), 16);
     read_page("many/figures/ratios-again.dat");
-    assert_int_equal(count_of(" 1 1 1\n"), 6);
+    assert_int_equal(test_count(said, " 1 1 1\n"), 6);
 }
 
 static int make_files(void)

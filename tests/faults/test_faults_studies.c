@@ -65,7 +65,9 @@ static int make_plain(int argc, char **argv)
 
 TEST(extremes_when_a_call_fails_say_so)
 {
-    static const fault_line list[] = {{"extreme", answer_extreme, 0}};
+    static const fault_line list[] = {
+        {"extreme", answer_extreme, 0},
+        LINE(extremes, " --quick --family plain --method certified --out out", 0)};
     FAIL_EACH(list);
 }
 

@@ -1,20 +1,24 @@
-/* HACD in its child process, whatever it does there. The linker replaces its main function by
-   the one below (--wrap). */
+/* HACD in its child process, whatever it does there, and whatever becomes of what the child
+   says. The linker replaces its main function and calls of libc by those below (--wrap). */
 #include "core/parts/parts.h"
 #include "datasets/letter.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-/* The C++ ABI names of std::length_error and the type info of int, on systems whose size_t is
-   an unsigned long. */
+/* The C++ ABI names of std::bad_alloc, std::length_error and the type info of int, on systems
+   whose size_t is an unsigned long. */
 extern const char _ZTIi[];
+_Noreturn void _ZSt17__throw_bad_allocv(void);
 _Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
 void *__cxa_allocate_exception(size_t size);
 _Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
@@ -26,7 +30,16 @@ pid_t __real_fork(void);
 int __wrap_pipe(int ends[2]);
 pid_t __wrap_fork(void);
 
-static bool is_without_pipe, is_without_fork;
+ssize_t __real_write(int file, const void *data, size_t size);
+int __real_poll(struct pollfd *files, nfds_t count, int wait);
+ssize_t __real_read(int file, void *data, size_t size);
+pid_t __real_wait4(pid_t process, int *status, int options, struct rusage *used);
+ssize_t __wrap_write(int file, const void *data, size_t size);
+int __wrap_poll(struct pollfd *files, nfds_t count, int wait);
+ssize_t __wrap_read(int file, void *data, size_t size);
+pid_t __wrap_wait4(pid_t process, int *status, int options, struct rusage *used);
+
+static bool is_without_pipe, is_without_fork, is_child;
 
 int __wrap_pipe(int ends[2])
 {
@@ -37,7 +50,101 @@ int __wrap_pipe(int ends[2])
 pid_t __wrap_fork(void)
 {
     errno = EAGAIN;
-    return is_without_fork ? -1 : __real_fork();
+    const pid_t process = is_without_fork ? -1 : __real_fork();
+    is_child = process == 0;
+    return process;
+}
+
+/* How the child says what HACD made of a component: {count, part of each face}. */
+static enum {
+    SAYS_IT,
+    SAYS_IT_IN_PIECES,
+    SAYS_NOTHING,
+    SAYS_NO_PART,
+    SAYS_A_PART_TOO_HIGH,
+} child_does;
+
+/* Says it with one of the numbers changed. */
+static ssize_t write_changed(int file, const uint32_t *said, size_t size, size_t place,
+                             uint32_t number)
+{
+    uint32_t *changed = malloc(size);
+    if (!changed)
+        return -1;
+    memcpy(changed, said, size);
+    changed[place] = number;
+    const ssize_t written = __real_write(file, changed, size);
+    free(changed);
+    return written;
+}
+
+#ifdef MOTE_COVERAGE
+void __gcov_dump(void);
+void __gcov_reset(void);
+#endif
+
+ssize_t __wrap_write(int file, const void *data, size_t size)
+{
+    if (!is_child)
+        return __real_write(file, data, size);
+#ifdef MOTE_COVERAGE
+    __gcov_dump(); /* the parent may kill it as soon as it has heard this */
+    __gcov_reset();
+#endif
+    const uint32_t *said = data;
+    switch (child_does) {
+    case SAYS_IT_IN_PIECES:
+        return __real_write(file, data, size < 7 ? size : 7);
+    case SAYS_NOTHING:
+        errno = EPIPE;
+        return -1;
+    case SAYS_NO_PART:
+        return write_changed(file, said, size, 0, 0);
+    case SAYS_A_PART_TOO_HIGH:
+        return write_changed(file, said, size, size / sizeof *said - 1, said[0]);
+    case SAYS_IT:
+        break;
+    }
+    return __real_write(file, data, size);
+}
+
+/* How often each of the parent's calls is interrupted, and how it fails in another way. */
+static struct {
+    int poll, read, wait4;
+} interruptions;
+static enum { HEARS, HEARS_LATE, HEARS_NOTHING, CANNOT_READ } parent_does;
+
+static bool is_interrupted(int *left)
+{
+    if (*left == 0)
+        return false;
+    --*left;
+    errno = EINTR;
+    return true;
+}
+
+int __wrap_poll(struct pollfd *files, nfds_t count, int wait)
+{
+    if (is_interrupted(&interruptions.poll))
+        return -1;
+    errno = ENOMEM;
+    return parent_does == HEARS_LATE      ? 0
+           : parent_does == HEARS_NOTHING ? -1
+                                          : __real_poll(files, count, wait);
+}
+
+ssize_t __wrap_read(int file, void *data, size_t size)
+{
+    if (is_interrupted(&interruptions.read))
+        return -1;
+    errno = EIO;
+    return parent_does == CANNOT_READ ? -1 : __real_read(file, data, size);
+}
+
+pid_t __wrap_wait4(pid_t process, int *status, int options, struct rusage *used)
+{
+    return is_interrupted(&interruptions.wait4) ? -1
+                                                : __real_wait4(process, status, options, used);
 }
 
 static enum {
@@ -45,6 +152,7 @@ static enum {
     HACD_FAILS,
     HACD_THROWS,
     HACD_THROWS_A_NUMBER,
+    HACD_HAS_NO_MEMORY,
     HACD_ABORTS,
     HACD_SEGFAULTS,
     HACD_LOOPS,
@@ -74,6 +182,8 @@ bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude)
         _ZSt20__throw_length_errorPKc("planted");
     case HACD_THROWS_A_NUMBER:
         __cxa_throw(__cxa_allocate_exception(sizeof(int)), _ZTIi, NULL);
+    case HACD_HAS_NO_MEMORY:
+        _ZSt17__throw_bad_allocv();
     case HACD_ABORTS:
         abort();
     case HACD_SEGFAULTS:
@@ -105,6 +215,8 @@ TEST(parts_when_hacd_fails_are_those_of_the_planes)
             right = v;
     }
     for (int does = HACD_WORKS; does < HACD_CASES; ++does) {
+        if (does == HACD_HAS_NO_MEMORY)
+            continue;
         mote_parts *parts = NULL;
         hacd_does = does;
         assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_OK);
@@ -174,5 +286,130 @@ TEST(parts_without_a_process_say_so)
         assert_non_null(strstr(mote_error_text(), texts[k]));
         assert_non_null(strstr(mote_error_text(), strerror(k == 0 ? EMFILE : EAGAIN)));
     }
+    mote_mesh_destroy(mesh);
+}
+
+TEST(parts_when_hacd_has_no_memory_say_so)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_torus(5, 4));
+    mote_parts *parts = NULL;
+    hacd_does = HACD_HAS_NO_MEMORY;
+    assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_ENOMEM);
+    hacd_does = HACD_WORKS;
+    assert_null(parts);
+    assert_string_equal(mote_error_text(), "no memory for the convex parts");
+    mote_mesh_destroy(mesh);
+}
+
+static mote_parts *parts_of(const mote_mesh *mesh)
+{
+    mote_parts *parts = NULL;
+    if (mote_parts_create(mesh, NULL, &parts) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return parts;
+}
+
+static void expect_same_parts(const mote_parts *a, const mote_parts *b)
+{
+    assert_int_equal(a->count, b->count);
+    assert_int_equal(a->without_hacd, b->without_hacd);
+    assert_memory_equal(a->label, b->label, a->vertex_count * sizeof *a->label);
+}
+
+/* Calls that are interrupted, and a message that comes in pieces, change nothing. There are two
+   components, so that something is left to hear after the first. */
+TEST(parts_are_heard_in_pieces_and_through_interruptions)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_join(solid_torus(7, 5), solid_torus(5, 4), 5));
+    mote_parts *expected = parts_of(mesh);
+    assert_int_equal(expected->without_hacd, 0);
+    child_does = SAYS_IT_IN_PIECES;
+    mote_parts *parts = parts_of(mesh);
+    child_does = SAYS_IT;
+    expect_same_parts(parts, expected);
+    mote_parts_destroy(parts);
+    interruptions.poll = interruptions.read = interruptions.wait4 = 2;
+    parts = parts_of(mesh);
+    expect_same_parts(parts, expected);
+    assert_int_equal(interruptions.poll + interruptions.read + interruptions.wait4, 0);
+    mote_parts_destroy(parts);
+    mote_parts_destroy(expected);
+    mote_mesh_destroy(mesh);
+}
+
+/* Components of which nothing is heard, or what cannot be, are split by their planes. */
+TEST(parts_that_are_not_heard_are_those_of_the_planes)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_join(solid_torus(7, 5), solid_torus(5, 4), 5));
+    hacd_does = HACD_FAILS;
+    mote_parts *expected = parts_of(mesh);
+    hacd_does = HACD_WORKS;
+    assert_int_equal(expected->without_hacd, 2);
+    for (int does = SAYS_NOTHING; does <= SAYS_A_PART_TOO_HIGH; ++does) {
+        test_row("the child does %d", does);
+        child_does = does;
+        mote_parts *parts = parts_of(mesh);
+        child_does = SAYS_IT;
+        expect_same_parts(parts, expected);
+        mote_parts_destroy(parts);
+    }
+    for (int does = HEARS_LATE; does <= CANNOT_READ; ++does) {
+        test_row("the parent does %d", does);
+        parent_does = does;
+        mote_parts *parts = parts_of(mesh);
+        parent_does = HEARS;
+        expect_same_parts(parts, expected);
+        mote_parts_destroy(parts);
+    }
+    /* Where the first takes all of the time, the second has none. */
+    hacd_does = HACD_LOOPS;
+    mote_parts *parts = parts_of(mesh);
+    hacd_does = HACD_WORKS;
+    expect_same_parts(parts, expected);
+    mote_parts_destroy(parts);
+    mote_parts_destroy(expected);
+    mote_mesh_destroy(mesh);
+}
+
+/* A solid whose faces look inwards has the parts of the one that looks outwards. */
+TEST(parts_by_planes_of_a_solid_inside_out_are_the_same)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_torus(7, 5)), *turned = NULL;
+    uint32_t(*faces)[3] = malloc(mesh->triangle_count * sizeof *faces);
+    assert_non_null(faces);
+    for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
+        for (int k = 0; k < 3; ++k)
+            faces[f][k] = mesh->triangles[f][(3 - k) % 3];
+    }
+    assert_int_equal(mote_mesh_create(&mesh->positions[0].x, mesh->vertex_count, faces[0],
+                                      mesh->triangle_count, &turned),
+                     MOTE_OK);
+    free(faces);
+    hacd_does = HACD_FAILS;
+    mote_parts *outwards = parts_of(mesh), *inwards = parts_of(turned);
+    hacd_does = HACD_WORKS;
+    assert_in_range(outwards->count, 2, 20);
+    expect_same_parts(inwards, outwards);
+    mote_parts_destroy(outwards);
+    mote_parts_destroy(inwards);
+    mote_mesh_destroy(mesh);
+    mote_mesh_destroy(turned);
+}
+
+/* A square with a dent in one side, too deep for a convex sheet, but not for a part. */
+TEST(parts_by_planes_of_a_dented_sheet_are_one)
+{
+    static const double xyz[5][3] = {
+        {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 0.95, 0}, {0, 1, 0}};
+    static const uint32_t faces[3][3] = {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}};
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(xyz[0], 5, faces[0], 3, &mesh), MOTE_OK);
+    mote_parts *parts = NULL;
+    hacd_does = HACD_FAILS;
+    assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_OK);
+    hacd_does = HACD_WORKS;
+    assert_int_equal(parts->without_hacd, 1);
+    assert_int_equal(parts->count, 1);
+    mote_parts_destroy(parts);
     mote_mesh_destroy(mesh);
 }

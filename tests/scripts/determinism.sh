@@ -19,7 +19,7 @@ cache=$(command -v ccache || true)
 
 sources=$(ls core/*/*.c datasets/*.c harness/{base,engine,mesh,scene,sequence}/*.c |
     grep -v -e core/certificate/plain.c -e core/base/version.c)
-for name in child confine crew; do
+for name in child confine crew spawn; do
     sources="$sources harness/process/$name.c"
 done
 sources="$sources tests/studies/answers.c $build/core_registry.c"

@@ -36,15 +36,16 @@ EQUIVALENT = "tests/mutants_equivalent.txt"
 MODULES = {
     "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "answers", "test_triangle"]),
     "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
-                                              "test_statistics_ranks", "test_statistics_intervals"]),
+                                              "test_statistics_order", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate/certificate*.c",
-        ["test_certificate_bounds", "answers", "test_certificate_limits", "test_allocations",
-         "test_certificate", "test_scene"],
+        ["test_certificate_bounds", "test_certificate_box", "test_certificate_fitted",
+         "test_certificate_split", "test_certificate_apart", "answers", "test_certificate_limits",
+         "test_allocations", "test_certificate", "test_scene"],
     ),
     "stream": (
         "core/stream/*.c",
-        ["test_stream", "test_stream_scene", "test_method_auto", "answers"],
+        ["test_stream", "test_stream_limits", "test_stream_scene", "test_method_auto", "answers"],
     ),
     "skin": (
         "core/skin/*.c",
@@ -250,6 +251,14 @@ def link_command(build, test):
     return [w for w in words if w not in (":", "&&")], build
 
 
+def check_tests(build):
+    """Ends the program if a module names a test that the build does not have."""
+    for module, (_, tests) in MODULES.items():
+        for test in tests:
+            if not os.path.exists(f"{build}/tests/{test}"):
+                sys.exit(f"mutate: {build}/tests has no {test}, which {module} names")
+
+
 def limits(seconds):
     def set_limits():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
@@ -411,6 +420,7 @@ def main():
                 for m in mutants_of(path):
                     print(f"{m.path}:{m.line}: {m.kind}: {m.before} => {m.after}")
         return 0
+    check_tests(arguments.build)
     results = []
     with open(f"{arguments.out}/mutants.log", "w") as log:
         arguments.log = log

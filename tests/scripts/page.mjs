@@ -366,7 +366,7 @@ async function testOthers(browser) {
         const page = await open(browser, `${work}/letters`);
         const text = await page.locator(".block").textContent();
         truth(text.includes("100 bodies of 4 shapes, 1,380 to 11,920 triangles"), `the head of ${text}`);
-        truth(/certified, [0-9.]+.ms a frame/.test(text), `the time in ${text}`);
+        truth(/certified, [0-9.]+.(ms|µs) a frame/.test(text), `the time in ${text}`);
         equal(page.troubles.join("; "), "", "messages");
         await page.close();
     });

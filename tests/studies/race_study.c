@@ -120,8 +120,8 @@ static mote_status compile(void *context, int output)
 }
 
 /* The line of a race: place, key, verdicts of both rows, the named row's ratio. */
-static void add_line(study *s, const char *key, const mote_race *race, size_t named,
-                     double busy)
+static void add_line(study *s, const char *place, const char *key, const mote_race *race,
+                     size_t named, double busy)
 {
     size_t verdicts[4] = {0};
     for (size_t i = 0; i < race->count; ++i)
@@ -129,34 +129,27 @@ static void add_line(study *s, const char *key, const mote_race *race, size_t na
     const mote_race_row *row = &race->rows[named];
     const bool alone =
         row->verdict == MOTE_VERDICT_SLOWER && verdicts[MOTE_VERDICT_SLOWER] == 1;
-    mote_text_add(&s->lines, "%s,%zu,%zu,%zu,%zu,%d,%.5f,%.5f,%.5f,%zu,%.1f,%.2f\n", key,
-                  verdicts[MOTE_VERDICT_SLOWER], verdicts[MOTE_VERDICT_FASTER],
+    mote_text_add(&s->lines, "%s,%s,%zu,%zu,%zu,%zu,%d,%.5f,%.5f,%.5f,%zu,%.1f,%.2f\n", place,
+                  key, verdicts[MOTE_VERDICT_SLOWER], verdicts[MOTE_VERDICT_FASTER],
                   verdicts[MOTE_VERDICT_SAME], verdicts[MOTE_VERDICT_UNDECIDED],
                   row->verdict == MOTE_VERDICT_SLOWER ? 1 + alone : 0, row->ratio,
                   row->interval.low, row->interval.high, race->pairs, race->seconds, busy);
 }
 
-/* Races once, unless its line exists. size 0: unchanged. */
-static mote_status race_once(study *s, size_t place, const kind *k, int size, uint64_t number)
+/* Makes the programs of both sides, and races them; place 1: beside a compiler. */
+static mote_status race_planted(study *s, size_t place, const kind *k, int size,
+                                mote_race *race)
 {
-    char *key =
-        mote_format("%s,%s,%d,%" PRIu64, places[place], size ? k->name : "none", size, number);
-    char *begins = mote_format("\n%s,", key);
     char *plant = strcmp(k->plant, "clock") == 0
                       ? mote_format("clock:%.0f", 0.01 * size * CERTIFIED_NS)
                       : mote_format("%s:%.3f", k->plant, 0.01 * size);
     char *none = mote_format("%s:0", k->plant);
-    const bool known = strstr(s->lines.data, begins) != NULL;
     mote_race_builds builds[MOTE_RACE_SIDES] = {{.count = 0}, {.count = 0}};
     mote_child compiler = {.pid = 0};
-    mote_race race;
-    mote_status status = MOTE_OK;
-    if (!known)
-        status = make_racers(s, "a", none, &builds[0]);
-    if (!known && status == MOTE_OK)
+    mote_status status = make_racers(s, "a", none, &builds[0]);
+    if (status == MOTE_OK)
         status = make_racers(s, "b", plant, &builds[1]);
-    double busy = known ? 0 : mote_busy_cores();
-    if (!known && place == 1 && status == MOTE_OK)
+    if (place == 1 && status == MOTE_OK)
         status = mote_child_start(compile, NULL, (mote_child_limits){.seconds = 0}, &compiler);
     const mote_race_options options = {.builds = {&builds[0], &builds[1]},
                                        .cells = cells,
@@ -166,33 +159,51 @@ static mote_status race_once(study *s, size_t place, const kind *k, int size, ui
                                        .budget = 300,
                                        .timeout = 120,
                                        .seed = mote_clock_ns()};
-    if (!known && status == MOTE_OK)
-        status = mote_race_run(&options, &race);
+    if (status == MOTE_OK)
+        status = mote_race_run(&options, race);
     if (compiler.pid > 0) {
         mote_child_stop(&compiler, 1);
         (void)sleep(COMPILATION_SECONDS);
     }
     mote_child_release(&compiler);
-    if (!known && status == MOTE_OK) {
-        char *path = mote_format("%s/races.csv", s->out);
-        busy = fmax(busy, mote_busy_cores());
-        mote_text_add(&s->lines, "%s,",
-                      busy > BUSY_CORES ? places[PLACES_RACED] : places[place]);
-        add_line(s, key, &race, k->row, busy);
-        status = mote_file_write(path, s->lines.data, s->lines.size);
-        (void)printf("%s,%s: %s %.4f, %zu pairs, %.0f s, %.1f other cores busy\n",
-                     places[place], key, mote_verdict_names[race.rows[k->row].verdict],
-                     race.rows[k->row].ratio, race.pairs, race.seconds, busy);
-        (void)fflush(stdout);
-        free(path);
-        mote_race_free(&race);
-    }
     for (int side = 0; side < MOTE_RACE_SIDES; ++side)
         mote_race_builds_free(&builds[side]);
-    free(key);
-    free(begins);
     free(plant);
     free(none);
+    return status;
+}
+
+/* Races, and adds the line of the race to the file. */
+static mote_status race_and_store(study *s, size_t place, const kind *k, int size,
+                                  const char *key)
+{
+    double busy = mote_busy_cores();
+    mote_race race;
+    mote_status status = race_planted(s, place, k, size, &race);
+    if (status != MOTE_OK)
+        return status;
+    char *path = mote_format("%s/races.csv", s->out);
+    busy = fmax(busy, mote_busy_cores());
+    add_line(s, places[busy > BUSY_CORES ? PLACES_RACED : place], key, &race, k->row, busy);
+    status = mote_file_write(path, s->lines.data, s->lines.size);
+    (void)printf("%s,%s: %s %.4f, %zu pairs, %.0f s, %.1f other cores busy\n", places[place],
+                 key, mote_verdict_names[race.rows[k->row].verdict], race.rows[k->row].ratio,
+                 race.pairs, race.seconds, busy);
+    (void)fflush(stdout);
+    free(path);
+    mote_race_free(&race);
+    return status;
+}
+
+/* Races once, unless its line exists. size 0: unchanged. */
+static mote_status race_once(study *s, size_t place, const kind *k, int size, uint64_t number)
+{
+    char *key = mote_format("%s,%d,%" PRIu64, size ? k->name : "none", size, number);
+    char *begins = mote_format("\n%s,%s,", places[place], key);
+    const bool known = strstr(s->lines.data, begins) != NULL;
+    const mote_status status = known ? MOTE_OK : race_and_store(s, place, k, size, key);
+    free(key);
+    free(begins);
     return status;
 }
 

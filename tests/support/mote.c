@@ -47,3 +47,8 @@ void mote_expect(int status, const char *says, const char *format, ...)
     if (ended != status || !strstr(said, says))
         fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says, said);
 }
+
+bool has_valgrind(void)
+{
+    return system("valgrind --version >/dev/null 2>&1") == 0;
+}

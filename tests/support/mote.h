@@ -4,6 +4,7 @@
 
 #include "core/base/status.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,5 +18,8 @@ int mote(const char *format, ...) MOTE_PRINTF(1, 2);
 
 /* The same, but the run must end with this status and print this text. */
 void mote_expect(int status, const char *says, const char *format, ...) MOTE_PRINTF(3, 4);
+
+/* Whether valgrind is installed. */
+bool has_valgrind(void);
 
 #endif

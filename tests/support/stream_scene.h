@@ -35,6 +35,27 @@ static inline mote_stream_frame positions_of(const scene *s)
         .positions = {mote_positions_of(s->world[0]), mote_positions_of(s->world[1])}};
 }
 
+/* Copies vertices into another layout: `stride` numbers apart, the rest filled with NaN. The
+   array ends with the last vertex; the caller frees it. */
+static inline void *spread_out(const mote_vec3 *from, uint32_t count, size_t stride,
+                               bool single)
+{
+    const size_t size = single ? sizeof(float) : sizeof(double);
+    const size_t numbers = (count - 1) * stride + 3;
+    char *made = malloc(numbers * size);
+    need(made);
+    for (size_t i = 0; i < numbers; ++i) {
+        const mote_vec3 p = from[i / stride];
+        const double part[3] = {p.x, p.y, p.z};
+        const double x = i % stride < 3 ? part[i % stride] : (double)NAN;
+        if (single)
+            ((float *)(void *)made)[i] = (float)x;
+        else
+            ((double *)(void *)made)[i] = x;
+    }
+    return made;
+}
+
 static inline mote_certificate_answer
 stream_answer(mote_stream *stream, const mote_stream_frame *frame, double enough)
 {

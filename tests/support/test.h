@@ -36,6 +36,9 @@ void test_register_each(test_fixture before, test_fixture after);
 /* Names the table row that the following checks are about; printed if the test fails there. */
 void test_row(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* How often a text contains another one, which is not empty. */
+size_t test_count(const char *text, const char *wanted);
+
 /* How many elements an array has. */
 #define ROWS_OF(array) (sizeof(array) / sizeof(array)[0])
 

@@ -35,6 +35,14 @@ void test_register_each(test_fixture before, test_fixture after)
     after_each = after;
 }
 
+size_t test_count(const char *text, const char *wanted)
+{
+    size_t times = 0;
+    for (const char *at = text; (at = strstr(at, wanted)) != NULL; at += strlen(wanted))
+        ++times;
+    return times;
+}
+
 static int run_fixture(test_fixture fixture)
 {
     return fixture ? fixture() : 0;

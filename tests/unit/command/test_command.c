@@ -118,6 +118,7 @@ static const command_line bad_lines[] = {
     {"run s.json --until-ci %", 2, "expected a percentage"},
     {"run s.json --until-ci " SEVENTY "%", 2, "expected a percentage"},
     {"run s.json --until-ci 200%", 2, "expected a percentage"},
+    {"run s.json --until-ci 25", 2, "expected a percentage"},
     {"run s.json --out ''", 2, "expected a directory"},
     {"run --pair d.obj d.obj --pair d.obj d.obj", 2, "two mesh files, once"},
     {"history --fast", 2, "unknown option --fast"},
@@ -225,10 +226,7 @@ TEST(command_letter_writes_that_many_triangles)
 {
     assert_int_equal(mote("letter V --triangles 500 -o V.obj"), 0);
     char *text = file_text("V.obj");
-    int faces = 0;
-    for (const char *at = text; (at = strstr(at, "\nf ")); ++at)
-        ++faces;
-    assert_int_equal(faces, 500);
+    assert_int_equal(test_count(text, "\nf "), 500);
     free(text);
 }
 

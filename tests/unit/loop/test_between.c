@@ -98,6 +98,26 @@ TEST(simulator_run_sampled_passes_and_continuous_does_not)
     }
 }
 
+/* A V that turns by 50 degrees a frame follows arcs, on which its arms meet the T. */
+TEST(simulator_run_of_fast_spins_lets_nothing_pass)
+{
+    static const double steps[] = {1, 7.5};
+    mote_scenario *scenario = load("", "0.1, 0.1, 1.5", "0, 0, -0.06", "5, 50, 3");
+    for (size_t k = 0; k < ROWS_OF(steps); ++k) {
+        const mote_simulation_result r =
+            run_pair(scenario, (setting){.step = steps[k],
+                                         .within = MOTE_STEPS_CONTINUOUS,
+                                         .restitution = 1,
+                                         .steps = (uint32_t)(60 / steps[k])});
+        test_row("steps of %g frames", steps[k]);
+        assert_true(r.impacts > 0 && r.responses > 0);
+        assert_int_equal(r.passes + r.intersections + r.unproven + r.false_steps, 0);
+        assert_true(!(r.depth_max > 0));
+        assert_true(r.momentum_drift < 1e-12);
+    }
+    mote_scenario_destroy(scenario);
+}
+
 /* Without an impact, all steps follow the same path as single frames do. */
 TEST(simulator_run_between_impacts_nothing_depends_on_the_step)
 {

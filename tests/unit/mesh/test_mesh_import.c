@@ -220,6 +220,10 @@ static const bad_text bad_texts[] = {
     {"b.ply", PLY_HEAD "0 0 0\n", ":11: ends after 1 of 4 elements vertex; give all"},
     {"b.obj", "", "b.obj: an empty file"},
     {"b.obj", "\xff\xfev", "a text in UTF-16; save it as UTF-8"},
+    {"b.off", "\xfe\xffO", "a text in UTF-16; save it as UTF-8"},
+    {"b.ply", PLY_HEAD "0 0 0\n1 0 0\n0 1 0\n0 0 1\nx 0 1 2\n", ":14: a face without its"},
+    {"b.ply", PLY_HEAD "0 0 0\n1 0 0\n0 1 0\n0 0 1\n-3 0 1 2\n", ":14: a face without its"},
+    {"b.off", "OFF", ":1: no counts; write the numbers"},
     {"b.ply",
      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
      "property double y\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -283,6 +287,15 @@ TEST(mote_mesh_import_not_a_file_is_refused)
     assert_int_equal(mote_mesh_import("/dev/zero", &mesh, NULL), MOTE_EINVAL);
     assert_int_equal(mkfifo("p.obj", 0600), 0);
     assert_int_equal(mote_mesh_import("p.obj", &mesh, NULL), MOTE_EINVAL);
+    file_write("z.obj", "v 0 0 0\n\0\n", 10);
+    assert_int_equal(mote_mesh_import("z.obj", &mesh, NULL), MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), "z.obj: a zero byte at 8; give text");
+    /* No byte of this file is stored. */
+    file_put("l.obj", "");
+    assert_int_equal(truncate("l.obj", ((off_t)4 << 30) + 1), 0);
+    assert_int_equal(mote_mesh_import("l.obj", &mesh, NULL), MOTE_EINVAL);
+    assert_string_equal(mote_error_text(),
+                        "l.obj: 4294967297 bytes; at most 4294967296 are read");
     assert_null(mesh);
 }
 

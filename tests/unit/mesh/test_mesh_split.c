@@ -1,16 +1,19 @@
 /* Edges of more than two faces are split, and nothing else changes. */
 #include "core/base/random.h"
 #include "core/body/mesh.h"
-#include "harness/mesh/mesh_split.h"
+#include "harness/mesh/mesh_import.h"
+#include "harness/mesh/mesh_soup.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
 
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FACES_MAX 64
 
@@ -212,6 +215,92 @@ TEST(split_random_faces_make_a_mesh_of_the_same_places)
     assert_true(heavy > 10000);
 }
 
+/* The lines of the first faces of each of the first edges; unknown lines are left out. */
+TEST(split_tells_the_first_lines_of_the_first_edges)
+{
+    mote_soup soup = {0};
+    mote_split split;
+    for (uint32_t book = 0; book < 5; ++book) {
+        assert_int_equal(mote_soup_add_vertex(&soup, book, 0, 0), MOTE_OK);
+        assert_int_equal(mote_soup_add_vertex(&soup, book, 0, 1), MOTE_OK);
+        for (uint32_t k = 0; k < 12; ++k)
+            assert_int_equal(mote_soup_add_vertex(&soup, book, 1 + k, 2), MOTE_OK);
+        for (uint32_t k = 0; k < 12; ++k) {
+            soup.line = book == 1 ? 0 : 100 * book + 12 - k;
+            mote_soup_add_triangle(&soup, 14 * book, 14 * book + 1, 14 * book + 2 + k);
+        }
+    }
+    mote_soup_split(&soup, &split);
+    assert_int_equal(split.edges, 5);
+    assert_non_null(strstr(split.where, "(0, 0, 0) to (0, 0, 1) with 12 faces on lines "));
+    assert_non_null(strstr(split.where, ", ...; (1, 0, 0) to (1, 0, 1) with 12 faces; "));
+    assert_null(strstr(split.where, "(4, 0, 0)"));
+    mote_soup_free(&soup);
+}
+
+/* An edge whose ends are at one place, as OBJ may have it, has no direction to sort faces by.
+ */
+TEST(split_an_edge_of_no_length_gives_a_mesh)
+{
+    static const double places[6][3] = {{0, 0, 0}, {0, 0, 0},  {1, 0, 0},
+                                        {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
+    mote_soup soup = make_soup(places, 6);
+    mote_split split;
+    for (uint32_t k = 0; k < 4; ++k)
+        mote_soup_add_triangle(&soup, k % 2, 1 - k % 2, 2 + k);
+    mote_soup_split(&soup, &split);
+    assert_int_equal(split.edges, 1);
+    for (int c = 0; c < 12; ++c)
+        assert_memory_equal(soup.xyz + 3 * soup.indices[c], places[c % 3 == 2 ? 2 + c / 3 : 0],
+                            sizeof places[0]);
+    mote_mesh_destroy(mesh_of(&soup));
+    mote_soup_free(&soup);
+}
+
+TEST(split_is_refused_with_the_number_of_edges)
+{
+    mote_import import = {.unused = 3};
+    assert_int_equal(mote_import_refuse_split("b.obj", &import), MOTE_OK);
+    (void)snprintf(import.split.where, sizeof import.split.where, "here");
+    static const char *const says[] = {"b.obj: 1 edge of more than two faces (non-manifold): "
+                                       "here; give each edge",
+                                       "b.obj: 2 edges of more than two faces (non-manifold): "
+                                       "here; give each edge"};
+    for (size_t k = 0; k < 2; ++k) {
+        import.split.edges = k + 1;
+        assert_int_equal(mote_import_refuse_split("b.obj", &import), MOTE_EINVAL);
+        assert_int_equal(strncmp(mote_error_text(), says[k], strlen(says[k])), 0);
+    }
+    import.split.edges = MOTE_SPLIT_EDGES_TOLD + 1;
+    assert_int_equal(mote_import_refuse_split("b.obj", &import), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "): here; ...; give each edge"));
+}
+
+/* Names are remembered up to a number; those beyond are told each time. */
+TEST(split_is_told_once_a_file)
+{
+    mote_import import = {.split = {.edges = 2}};
+    const int kept = dup(STDERR_FILENO), out = open("told", O_WRONLY | O_CREAT, 0600);
+    (void)fflush(stderr);
+    assert_true(kept >= 0 && out >= 0 && dup2(out, STDERR_FILENO) >= 0);
+    for (int k = 0; k < 140; ++k) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "f%02d.obj", k % 70);
+        import.split.edges = k % 70 == 3 ? MOTE_SPLIT_EDGES_TOLD + 1 : k % 70 == 4 ? 0 : 1;
+        mote_import_tell_split(name, &import);
+    }
+    (void)fflush(stderr);
+    assert_true(dup2(kept, STDERR_FILENO) >= 0);
+    assert_int_equal(close(kept) + close(out), 0);
+    char *text = file_text("told");
+    assert_int_equal(test_count(text, "mote: f02.obj: note: 1 edge of more than two faces"), 1);
+    assert_int_equal(test_count(text, "f03.obj: note: "), 1);
+    assert_int_equal(test_count(text, "; ...\n"), 1);
+    assert_int_equal(test_count(text, "f04.obj"), 0);
+    assert_int_equal(test_count(text, "f69.obj"), 2);
+    free(text);
+}
+
 /* A hub of many faces at one edge must not be slow. */
 TEST(split_an_edge_of_many_faces_takes_no_time)
 {
@@ -261,9 +350,7 @@ TEST(split_is_told_once_and_refused_by_strict)
     file_put("split_book.json", scene);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         const int code = mote("%s", cases[i].line);
-        int notes = 0;
-        for (const char *at = said; (at = strstr(at, "note:")) != NULL; ++at)
-            ++notes;
+        const int notes = (int)test_count(said, "note:");
         if (code != cases[i].code || !strstr(said, cases[i].says) || notes != cases[i].notes)
             fail_msg("%s: %d, %s", cases[i].line, code, said);
     }

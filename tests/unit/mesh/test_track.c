@@ -122,3 +122,21 @@ TEST(mote_affine_inverts_what_is_not_singular)
     assert_false(mote_affine_invert(&flat, &inverse));
     assert_false(mote_affine_invert(&zero, &inverse));
 }
+
+/* Half way from a rotation to its negative, without tangents, a cubic is 0; far tangents make
+   it infinite. Both have no direction, and the key before them counts. */
+TEST(mote_track_of_a_cubic_rotation_without_a_direction_is_its_last_key)
+{
+    static const double tangents[] = {0, 1e308};
+    for (size_t i = 0; i < ROWS_OF(tangents); ++i) {
+        const double times[] = {0, 2}, far = tangents[i];
+        const double values[] = {0,   0, 0, 0, 0.6,  0, 0.8,  0, far, far, far, far,
+                                 far, 0, 0, 0, -0.6, 0, -0.8, 0, 0,   0,   0,   0};
+        const mote_track track = {MOTE_TRACK_CUBIC, 2, times, values};
+        double value[4];
+        mote_track_rotation(&track, 1, value);
+        assert_true(value[0] == 0.6 && value[1] == 0 && value[2] == 0.8 && value[3] == 0);
+        mote_track_rotation(&track, 2, value);
+        assert_true(value[0] == -0.6 && value[2] == -0.8);
+    }
+}

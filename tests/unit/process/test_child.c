@@ -58,6 +58,12 @@ static mote_status say_rubbish(void *context, int output)
     _exit(0);
 }
 
+TEST(a_process_of_another_parent_is_not_waited_for)
+{
+    assert_int_equal(mote_spawn_wait(getppid()), -1);
+    assert_int_equal(mote_spawn_wait(1 << 30), -1);
+}
+
 TEST(run_of_children_that_die_says_how)
 {
     char *text = NULL;

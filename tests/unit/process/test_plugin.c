@@ -67,7 +67,7 @@ TEST(methods_of_a_library_are_measured_as_those_built_in)
 /* Each method is counted in a process of its own, in which both libraries must be open. */
 TEST(instructions_are_counted_with_every_library)
 {
-    if (!mote_heap_read().counted || system("valgrind --version >/dev/null 2>&1") != 0)
+    if (!mote_heap_read().counted || !has_valgrind())
         skip(); /* callgrind cannot run what sanitizers have built */
     mote_expect(0, "plugin-points",
                 "instructions tt --frames 1-2 --out counted --method plugin-points --method "

@@ -46,7 +46,8 @@ TEST(keys_of_a_row_may_stand_in_any_order)
         assert_string_equal(key, "ww/a:b=c,n=5/hot");
         free(key);
     }
-    static const char *const alone[] = {"ww/a/hot", "ww", "", "/", "a:b", "ww/a:n=5/hot"};
+    static const char *const alone[] = {"ww/a/hot", "ww",           "",           "/",
+                                        "a:b",      "ww/a:n=5/hot", "ww/hot:n=5", "a:b=c"};
     for (size_t i = 0; i < ROWS_OF(alone); ++i) {
         char *key = mote_race_row_key(alone[i]);
         assert_string_equal(key, alone[i]);
@@ -79,14 +80,6 @@ TEST(races_are_read_by_date)
     mote_race_files_free(&files);
 }
 
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    for (const char *at = text; (at = strstr(at, what)); ++at)
-        ++count;
-    return count;
-}
-
 TEST(points_lead_to_commits_and_reasons)
 {
     file_put("h.csv", history);
@@ -95,23 +88,61 @@ TEST(points_lead_to_commits_and_reasons)
     char *page = file_text("h.html");
     /* One chart for both, whatever the order of keys; a row that only races have gets
        another. */
-    assert_int_equal(count_of(page, "<figure>"), 2);
-    assert_int_equal(count_of(page, "<h2>ww/"), 2);
-    assert_int_equal(count_of(page, "href=\"#reference-2\""), 1);
-    assert_int_equal(count_of(page, "id=\"reference-2\""), 1);
-    assert_int_equal(count_of(page, "href=\"#race-1\""), 1);
-    assert_int_equal(count_of(page, "id=\"race-1\""), 1);
-    assert_int_equal(count_of(page, "class=\"point changed\""), 1);
-    assert_int_equal(count_of(page, "class=\"point slower\""), 1);
-    assert_int_equal(count_of(page, "ww/a:b=c,n=5/hot slower (1.1)"), 1);
+    assert_int_equal(test_count(page, "<figure>"), 2);
+    assert_int_equal(test_count(page, "<h2>ww/"), 2);
+    assert_int_equal(test_count(page, "href=\"#reference-2\""), 1);
+    assert_int_equal(test_count(page, "id=\"reference-2\""), 1);
+    assert_int_equal(test_count(page, "href=\"#race-1\""), 1);
+    assert_int_equal(test_count(page, "id=\"race-1\""), 1);
+    assert_int_equal(test_count(page, "class=\"point changed\""), 1);
+    assert_int_equal(test_count(page, "class=\"point slower\""), 1);
+    assert_int_equal(test_count(page, "ww/a:b=c,n=5/hot slower (1.1)"), 1);
     /* File contents appear as text, and nothing is loaded. */
-    assert_int_equal(count_of(page, "<script"), 0);
-    assert_int_equal(count_of(page, "<two>"), 0);
-    assert_int_equal(count_of(page, "counts & more"), 0);
-    assert_int_equal(count_of(page, "http"), 0);
-    assert_int_equal(count_of(page, "src="), 0);
-    assert_int_equal(count_of(page, "nan"), 0);
+    assert_int_equal(test_count(page, "<script"), 0);
+    assert_int_equal(test_count(page, "<two>"), 0);
+    assert_int_equal(test_count(page, "counts & more"), 0);
+    assert_int_equal(test_count(page, "http"), 0);
+    assert_int_equal(test_count(page, "src="), 0);
+    assert_int_equal(test_count(page, "nan"), 0);
     free(page);
+}
+
+/* A race without an interval has no whisker, one that lacks the row no point. */
+TEST(points_of_races_show_what_is_known)
+{
+    file_put("h.csv", HEADER);
+    file_put("perf-ab/a.json", race("2026-01-01", "slower", 1.1));
+    file_put("perf-ab/b.json",
+             "{\"schema\": 1, \"date\": \"2026-01-02\", \"rows\": [{\"name\": "
+             "\"ww/a:n=5,b=c/hot\", \"ratio\": 2, \"ci_low\": null, \"verdict\": "
+             "\"undecided\"}]}\n");
+    file_put("perf-ab/c.json", "{\"schema\": 1, \"date\": \"2026-01-03\", \"rows\": "
+                               "[{\"name\": \"other/hot\", \"ratio\": 0.5}]}\n");
+    assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);
+    char *page = file_text("h.html");
+    assert_int_equal(test_count(page, "class=\"whisker\""), 1);
+    assert_int_equal(test_count(page, "href=\"#race-1\""), 1);
+    assert_int_equal(test_count(page, "href=\"#race-2\""), 1);
+    assert_int_equal(test_count(page, "href=\"#race-3\""), 1);
+    assert_int_equal(test_count(page, "nan"), 0);
+    free(page);
+}
+
+/* Every row that is worse, and every faster one, is told, and no other. */
+TEST(changes_of_a_race_are_its_worse_and_faster_rows)
+{
+    mote_race_files files;
+    file_put("perf-ab/a.json",
+             "{\"schema\": 1, \"date\": \"2026-01-01\", \"rows\": ["
+             "{\"name\": \"a/hot\", \"ratio\": 2, \"verdict\": \"slower\", \"worse\": true}, "
+             "{\"name\": \"b/hot\", \"ratio\": 1, \"verdict\": \"same\", \"worse\": false}, "
+             "{\"name\": \"c/hot\", \"ratio\": 0.5, \"verdict\": \"faster\"}, "
+             "{\"name\": \"d/hot\", \"verdict\": \"undecided\"}]}\n");
+    assert_int_equal(mote_race_files_read("perf-ab", &files), MOTE_OK);
+    char *changes = mote_race_files_changes(&files, 0);
+    assert_string_equal(changes, "a/hot slower (2); c/hot faster (0.5)");
+    free(changes);
+    mote_race_files_free(&files);
 }
 
 TEST(mote_history_writes_the_page)
@@ -120,11 +151,11 @@ TEST(mote_history_writes_the_page)
     file_put("perf-ab/a.json", race("2026-01-01", "slower", 1.1));
     (void)mote("history h.csv"); /* gnuplot may be missing */
     char *page = file_text("h.html");
-    assert_int_equal(count_of(page, "class=\"point slower\""), 1);
+    assert_int_equal(test_count(page, "class=\"point slower\""), 1);
     free(page);
     (void)mote("history h.csv --races nowhere");
     page = file_text("h.html");
-    assert_int_equal(count_of(page, "class=\"point slower\""), 0);
+    assert_int_equal(test_count(page, "class=\"point slower\""), 0);
     free(page);
 }
 

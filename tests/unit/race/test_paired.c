@@ -2,6 +2,7 @@
 #include "tests/support/test.h"
 
 #include "core/base/random.h"
+#include "harness/race/protocol.h"
 #include "harness/race/race.h"
 
 #include <math.h>
@@ -181,6 +182,21 @@ TEST(equal_programs_are_the_same_where_processes_differ_by_two_per_cent)
         same += simulate(&random, 0, 0.02) == MOTE_VERDICT_SAME;
     test_row("%zu of 400", same);
     assert_true(same >= 390);
+}
+
+/* A race keeps MOTE_PAIRED_MAX values a cell, so the last look must not need more, however many
+   cells share alpha. */
+TEST(the_last_look_of_any_race_is_at_100_pairs_at_most)
+{
+    for (size_t cells = 1; cells <= MOTE_RACE_CELLS; ++cells) {
+        size_t pairs = mote_paired_least(MOTE_RACE_ALPHA / MOTE_RACE_LOOKS / (double)cells);
+        for (int k = 1; k < MOTE_RACE_LOOKS; ++k) {
+            const size_t next = mote_race_next_look(pairs);
+            test_row("%zu cells, look %d", cells, k + 1);
+            assert_true(next > pairs && next <= MOTE_PAIRED_MAX);
+            pairs = next;
+        }
+    }
 }
 
 TEST(verdicts)

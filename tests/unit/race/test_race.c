@@ -165,6 +165,18 @@ TEST(builds_in_a_folder_take_turns)
     free(json);
 }
 
+TEST(a_side_has_64_builds_at_most)
+{
+    assert_int_equal(mkdir("builds", 0755), 0);
+    for (int i = 0; i < 65; ++i) {
+        char name[32];
+        (void)snprintf(name, sizeof name, "builds/b%02d", i);
+        put_program(name, "#!/bin/sh\n");
+    }
+    assert_int_equal(mkdir("builds/folder", 0755), 0);
+    mote_expect(4, "builds: more than 64 programs; keep fewer", "race builds builds " QUICK);
+}
+
 TEST(programs_that_cannot_race_are_refused)
 {
     put_program("other", "#!/bin/sh\nprintf 'mote-race\\t2\\n'; cat >/dev/null\n");
@@ -257,7 +269,6 @@ TEST(command_lines_that_are_wrong)
         {"race /bin/true /bin/true ww --method certified --frames 9-1", 4, "9-1"},
         {"race /nowhere /bin/true ww --method certified", 4, "/nowhere: No such file"},
         {"race . . ww --method certified", 4, "no program in this folder"},
-        {"race-child --core x", 2, "not a number that `mote race` gives"},
     };
     command_refuses(lines, ROWS_OF(lines));
 }
@@ -284,37 +295,4 @@ TEST(scenes_of_many_bodies_race_and_threads_do_not)
     mote_expect(4, "leave threads and ahead out",
                 "race %s %s " SCENARIO " --method certified:threads=2", MOTE_PROGRAM,
                 MOTE_PROGRAM);
-}
-
-/* A child's answers to requests that mote race never makes. */
-TEST(a_child_answers_odd_requests)
-{
-    static const struct {
-        const char *requests, *says;
-    } rows[] = {
-        {"hello", "no\thello: no such request"},
-        {"run\\t0\\t1\\t1", "no\t0: no such cell"},
-        {"answers\\tx", "no\tx: no such cell"},
-        {"cell\\t" SCENARIO "\\t1\\t70\\thot\\t1\\t0\\tcertified", "outside"},
-        {"cell\\t" SCENARIO "\\t0\\t7\\thot\\t1\\t0\\tcertified",
-         "frames or seed are not numbers"},
-        {"cell\\t" SCENARIO "\\t1\\t7\\thot\\t1\\t0\\tnothing", "unknown method nothing"},
-        {"cell\\t" SCENARIO "\\t1\\t7\\thot\\t1\\t0\\tcertified\\nrun\\t0\\t5\\t4",
-         "no\trun: frames outside the cell's"},
-        {"cell\\t" SCENARIO
-         "\\t1\\t7\\thot\\t1\\t0\\tcertified\\nrun\\t0\\t5\\t3\\nanswers\\t0",
-         "ok\t0."},
-    };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        test_row("%s", rows[i].requests);
-        char command[512];
-        (void)snprintf(command, sizeof command, "printf '%s\\n' | %s race-child > heard",
-                       rows[i].requests, MOTE_PROGRAM);
-        assert_int_equal(system(command), 0);
-        char *heard = file_text("heard");
-        assert_int_equal(strncmp(heard, "mote-race\t1\n", 12), 0);
-        if (!strstr(heard, rows[i].says))
-            fail_msg("not \"%s\" but:\n%s", rows[i].says, heard);
-        free(heard);
-    }
 }

@@ -518,3 +518,38 @@ TEST(replay_load_of_a_changed_scenario_is_refused)
     assert_int_equal(json_array_size(json_object_get(root, "notes")), 1);
     json_decref(root);
 }
+
+/* A pair of meshes is found again from the words of the run's command, in any form. */
+TEST(replay_finds_a_pair_by_the_words_of_its_command)
+{
+    static const char *const words[] = {"", "--direction 1,0.5,0", "--direction=1,0.5,0"};
+    file_put("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+                      "f 2 3 4\n");
+    for (size_t i = 0; i < ROWS_OF(words); ++i) {
+        mote_report pair;
+        json_t *root = NULL;
+        test_row("%s", words[i]);
+        mote_expect(0, "",
+                    "run --out pair%zu %s --pair t.obj t.obj --frames 400-404 "
+                    "--method certified --replicates 1 --seed 3",
+                    i, words[i]);
+        char folder[16];
+        (void)snprintf(folder, sizeof folder, "pair%zu", i);
+        assert_int_equal(mote_report_gather(folder, &pair), MOTE_OK);
+        assert_int_equal(mote_replay_json(&pair, &root), MOTE_OK);
+        assert_int_equal(json_array_size(json_object_get(root, "notes")), 0);
+        assert_int_equal(json_array_size(json_object_get(root, "scenes")), 1);
+        json_decref(root);
+        /* Another direction in the words is another scenario. */
+        json_t *sessions = json_object_get(pair.manifest, "sessions");
+        json_t *command = json_object_get(json_array_get(sessions, 0), "command");
+        (void)json_array_insert_new(command, 1, json_string("--direction=0,0,1"));
+        (void)json_array_insert_new(command, 1, json_string("--directions"));
+        (void)json_array_insert_new(command, 1, json_integer(7));
+        assert_int_equal(mote_replay_json(&pair, &root), MOTE_OK);
+        assert_int_equal(json_array_size(json_object_get(root, "scenes")), 0);
+        assert_int_equal(json_array_size(json_object_get(root, "notes")), 1);
+        json_decref(root);
+        mote_report_free(&pair);
+    }
+}

@@ -1,4 +1,5 @@
 /* mote site: several runs on one page, and the runs that it refuses. */
+#define _DEFAULT_SOURCE /* realpath */
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
@@ -21,7 +22,7 @@
 
 static void make_run(const char *folder, const char *summary, const char *manifest)
 {
-    char path[512];
+    char path[1100];
     assert_int_equal(mote_directory_make(folder), MOTE_OK);
     (void)snprintf(path, sizeof path, "%s/summary.json", folder);
     file_put(path, summary);
@@ -136,6 +137,66 @@ TEST(runs_with_the_same_last_name_are_told_apart)
     json_decref(data);
 }
 
+/* The run that the page is in, beside, above or below, and one whose name begins like it. */
+TEST(links_lead_from_the_page_to_the_run)
+{
+    static const struct {
+        const char *run, *site, *link;
+    } rows[] = {
+        {"one", "site", "./../one"},        {"one", "one", "."},
+        {"one", "one/site", "./.."},        {"a/b", "a", "./b"},
+        {"one", "one2", "./../one"},        {"one2", "one", "./../one2"},
+        {"a/b", "c/d/e", "./../../../a/b"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char page[64];
+        test_row("%s from %s", rows[i].run, rows[i].site);
+        make_run(rows[i].run, SUMMARY(ROW("\"ww\"", "fast", "m1", "10", "distance")), NULL);
+        mote_expect(0, "", "site %s -o %s", rows[i].run, rows[i].site);
+        (void)snprintf(page, sizeof page, "%s/index.html", rows[i].site);
+        json_t *data = site_data(page);
+        assert_string_equal(text_in(json_object_get(data, "runs"), 0, "folder"), rows[i].link);
+        json_decref(data);
+    }
+}
+
+/* A path that ends with all of another one, from the root on, and two more of the same name. */
+TEST(runs_are_named_by_as_many_parts_as_tell_them_apart)
+{
+    static const char *const others[] = {"x/run", "y/run", "z/run"};
+    char here[1024];
+    char *folder = realpath(".", NULL);
+    (void)snprintf(here, sizeof here, "deep%s/x/run", folder);
+    free(folder);
+    make_run(here, SUMMARY(ROW("\"ww\"", "fast", "m1", "9", "distance")), NULL);
+    for (size_t i = 0; i < 3; ++i) {
+        char summary[512];
+        (void)snprintf(summary, sizeof summary,
+                       SUMMARY(ROW("\"ww\"", "fast", "m1", "1%zu", "distance")), i);
+        make_run(others[i], summary, NULL);
+    }
+    mote_expect(0, "", "site x/run %s y/run z/run -o site", here);
+    json_t *data = site_data("site/index.html");
+    const json_t *runs = json_object_get(data, "runs");
+    assert_int_equal(json_array_size(runs), 4);
+    for (size_t i = 0; i < 4; ++i) {
+        for (size_t k = 0; k < i; ++k)
+            assert_string_not_equal(text_in(runs, i, "name"), text_in(runs, k, "name"));
+    }
+    json_decref(data);
+}
+
+TEST(a_run_without_rows_makes_a_page_without_rows)
+{
+    make_run("empty", SUMMARY(""), NULL);
+    mote_expect(0, "", "site empty -o site");
+    char *page = file_text("site/index.html"), *csv = file_text("site/results.csv");
+    assert_non_null(strstr(page, "<p>1 run, 0 rows</p>"));
+    assert_ptr_equal(strchr(csv, '\n') + 1, csv + strlen(csv));
+    free(page);
+    free(csv);
+}
+
 TEST(what_is_no_run_is_refused_and_nothing_is_written)
 {
     static const struct {
@@ -143,6 +204,8 @@ TEST(what_is_no_run_is_refused_and_nothing_is_written)
     } wrong[] = {
         {"schema", "{\"schema\": 2, \"rows\": []}", "its schema is not 1"},
         {"none", "{\"rows\": []}", "its schema is not 1"},
+        {"word", "{\"schema\": \"1\", \"rows\": []}", "its schema is not 1"},
+        {"method", SUMMARY("{\"scenario\": \"ww\", \"label\": \"m\"}"), "row 1 has no"},
         {"rowless", "{\"schema\": 1}", "no rows"},
         {"cut", "{\"schema\": 1, \"rows\": [", "summary.json:1:"},
         {"number", "{\"schema\": 1, \"rows\": [7]}", "row 1 has no scenario"},

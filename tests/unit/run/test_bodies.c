@@ -555,13 +555,8 @@ TEST(mote_figure_bodies_stored_rows_become_lines)
                      MOTE_OK);
     assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
     assert_null(figure.missing.data);
-    size_t blocks = 0, empty = 0;
-    for (const char *at = figure.data.data; (at = strstr(at, "\"\n")) != NULL; ++at)
-        ++blocks;
-    for (const char *at = figure.data.data; (at = strstr(at, "NaN NaN NaN\n")) != NULL; ++at)
-        ++empty;
-    assert_int_equal(blocks, 18);
-    assert_int_equal(empty, 16);
+    assert_int_equal(test_count(figure.data.data, "\"\n"), 18);          /* blocks */
+    assert_int_equal(test_count(figure.data.data, "NaN NaN NaN\n"), 16); /* empty ones */
     assert_non_null(strstr(figure.data.data, "\"certified\"\n1000 2500 9\n"));
     assert_non_null(strstr(figure.caption.data, "one 260th of the time"));
     free(figure.data.data);

@@ -4,13 +4,16 @@
 #include "harness/base/file.h"
 #include "harness/run/impact_truth.h"
 #include "harness/run/subject.h"
+#include "harness/run/truth.h"
 #include "harness/scene/scenario_path.h"
 #include "tests/support/folder.h"
 #include "tests/support/interval_impact.h"
+#include "tests/support/mote.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <string.h>
 
 #define TETRAHEDRON "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -129,6 +132,112 @@ TEST(impact_truth_is_read_from_its_file_unless_that_was_changed)
     mote_scenario_destroy(scenario);
 }
 
+/* Two tetrahedra of which the second one flies past the first within one gap, or stands in it.
+ */
+static mote_scenario *load_two(const char *first, const char *last)
+{
+    char text[512];
+    (void)snprintf(
+        text, sizeof text,
+        "{\"purpose\": \"p\", \"frames\": 2, \"ask\": \"impact\", \"step\": 1, "
+        "\"bodies\": [{\"file\": \"t.obj\"}, {\"file\": \"t.obj\", \"motion\": "
+        "[{\"frame\": 1, \"position\": [%s]}, {\"frame\": 2, \"position\": [%s]}]}]}",
+        first, last);
+    file_put("t.obj", TETRAHEDRON);
+    file_put("two.json", text);
+    return load("./two.json");
+}
+
+TEST(impact_truth_finds_what_no_sample_sees)
+{
+    /* The corner of the second one, 1 from its origin in x, comes within the tolerance of the
+       face x = 0 of the first. Places are in units of L. Samples are a thousandth of the time
+       apart. */
+    static const struct {
+        const char *first, *last;
+        double from, way; /* of the second one's x */
+        bool impact;
+        uint32_t unsampled;
+    } rows[] = {
+        {"-3, 0.2, 0.2", "3, 0.2, 0.2", -3, 6, true, 0},
+        {"-3003, 0.2, 0.2", "2997, 0.2, 0.2", -3003, 6000, true, 1},
+        {"-3, 2, 0.2", "3, 2, 0.2", -3, 6, false, 0},
+        {"-0.5, 0.2, 0.2", "9, 0, 0", -0.5, 9.5, true, 0}, /* in contact at the beginning */
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_impact_truth *truth = NULL;
+        mote_scenario *scenario = load_two(rows[i].first, rows[i].last);
+        if (mote_impact_truth_load_or_compute(scenario, i, ".", &truth) != MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        const double place = (-1 - scenario->tolerance) / scenario->length;
+        const double expected = fmax(0, (place - rows[i].from) / rows[i].way);
+        const double t = truth->first[0];
+        const double done = 0.5 * t + 1.5 * t * t - t * t * t; /* by Catmull and Rom */
+        test_row("%s: %.9g, expected %.9g of the way", rows[i].first, done, expected);
+        assert_true(rows[i].impact ? fabs(done - expected) < 2e-6 : isnan(t));
+        assert_int_equal(truth->unsampled, rows[i].unsampled);
+        mote_impact_truth_destroy(truth);
+        mote_scenario_destroy(scenario);
+    }
+}
+
+TEST(impact_truth_of_a_step_is_that_of_its_first_gap_with_an_impact)
+{
+    double first[] = {NAN, 0.5, NAN, 0.25}, to = 0;
+    const mote_impact_truth truth = {.gaps = 4, .first = first};
+    assert_int_equal(mote_impact_truth_between(&truth, 1, 1, &to), 0);
+    assert_int_equal(mote_impact_truth_between(&truth, 1, 2, &to), 1);
+    assert_true(to == 0.75);
+    assert_int_equal(mote_impact_truth_between(&truth, 3, 2, &to), 1);
+    assert_true(to == 0.625);
+    /* Beyond the last frame there is nothing. */
+    assert_int_equal(mote_impact_truth_between(&truth, 5, 3, &to), 0);
+}
+
+/* A file that is whole but says something else than the scenario's truth may. */
+TEST(impact_truth_that_cannot_be_right_is_computed_anew)
+{
+    static const char first[] = "# impacts of two, fingerprint 0000000000000005, tolerance ",
+                      columns[] = "frame,first\n";
+    static const struct {
+        const char *unsampled, *rest;
+    } rows[] = {
+        {"2\n", "frame,first\n1,0.5\n"}, /* more than there are gaps */
+        {"x\n", "frame,first\n1,0.5\n"}, {"0\n", "frame,when\n1,0.5\n"},
+        {"0\n", "frame,first\n2,0.5\n"}, {"0\n", "frame,first\n1;0.5\n"},
+        {"0\n", "frame,first\n1,x\n"},   {"0\n", "frame,first\n1,0.5;\n"},
+        {"0\n", "frame,first\n1,-1\n"},  {"0\n", "frame,first\n1,1.5\n"},
+        {"0\n", "frame,first\n1,nan\n"}, {"0\n", "frame,first\n1,0.5\n2,0.5\n"},
+        {"0\n", "frame,first\n"},
+    };
+    static const char path[] = "truth/two-0000000000000005-impacts.csv";
+    mote_scenario *scenario = load_two("-3, 0.2, 0.2", "3, 0.2, 0.2");
+    mote_impact_truth *truth = NULL;
+    assert_int_equal(mote_impact_truth_load_or_compute(scenario, 5, ".", &truth), MOTE_OK);
+    char *right = file_text(path);
+    mote_impact_truth_destroy(truth);
+    assert_int_equal(strncmp(right, first, strlen(first)), 0);
+    const char *number = strstr(right, "samples: ") + strlen("samples: ");
+    assert_int_equal(strncmp(number, "0\n", 2), 0);
+    assert_int_equal(strncmp(number + 2, columns, strlen(columns)), 0);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_text text = {.data = NULL};
+        test_row("%s%s", rows[i].unsampled, rows[i].rest);
+        mote_text_add(&text, "%.*s%s%s", (int)(number - right), right, rows[i].unsampled,
+                      rows[i].rest);
+        mote_truth_seal(&text);
+        file_write(path, text.data, text.size);
+        free(text.data);
+        assert_int_equal(mote_impact_truth_load_or_compute(scenario, 5, ".", &truth), MOTE_OK);
+        mote_impact_truth_destroy(truth);
+        char *again = file_text(path);
+        assert_string_equal(again, right);
+        free(again);
+    }
+    free(right);
+    mote_scenario_destroy(scenario);
+}
+
 /* Runs the program, and returns what it prints; the caller frees it. */
 static char *run(const char *line, int status)
 {
@@ -203,6 +312,32 @@ TEST(run_of_impacts_counts_what_each_method_misses)
     /* What is stored is not measured again. */
     expect("run ./p.json --step 3 --method certified --replicates 1 --out r", 0,
            "1 of them done");
+}
+
+TEST(instructions_of_impacts_are_counted_a_question)
+{
+    put_scenario("p.json", "\"ask\": \"impact\", \"step\": 3", "");
+    free(run("instructions ./p.json --frames 1-12 --method certified --inside", 0));
+    expect("instructions ./p.json --frames 1-12 --method stream --inside", 4,
+           "stream does not answer impacts");
+    static const char *const modes[] = {"--inside", "--out counted"};
+    /* Without valgrind nothing is counted, whatever is asked. */
+    for (size_t i = 0; i < ROWS_OF(modes) - !has_valgrind(); ++i) {
+        char line[128];
+        test_row("%s", modes[i]);
+        (void)snprintf(line, sizeof line,
+                       "instructions ./p.json --frames 1-3 --method certified %s", modes[i]);
+        expect(line, 4, "frames 1-3: ./p.json asks for impacts within 3 frames");
+        (void)snprintf(line, sizeof line,
+                       "instructions ./p.json --frames 1-13 --method certified %s", modes[i]);
+        expect(line, 4, "outside ./p.json; it has frames 1-12");
+        (void)snprintf(line, sizeof line,
+                       "instructions ./none.json --frames 1-3 --method "
+                       "certified %s",
+                       modes[i]);
+        expect(line, 4, "none.json");
+    }
+    assert_false(file_exists("counted"));
 }
 
 TEST(run_of_impacts_refuses_what_cannot_be_asked)

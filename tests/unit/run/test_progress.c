@@ -43,30 +43,22 @@ static void run_on_terminal(unsigned short columns)
     assert_int_equal(program_wait(pid), 0);
 }
 
-static size_t count(const char *what)
-{
-    size_t times = 0;
-    for (const char *at = said; (at = strstr(at, what)) != NULL; ++at)
-        ++times;
-    return times;
-}
-
 TEST(progress_in_a_file_is_a_line_a_cell)
 {
     run_into_file("");
-    assert_int_equal(count("plan: 4 cells, 0 of them done"), 1);
-    assert_int_equal(count(": ok, "), 4);
-    assert_int_equal(count("\r"), 0);
+    assert_int_equal(test_count(said, "plan: 4 cells, 0 of them done"), 1);
+    assert_int_equal(test_count(said, ": ok, "), 4);
+    assert_int_equal(test_count(said, "\r"), 0);
 }
 
 /* The interval between lines is longer than the run. */
 TEST(progress_in_a_file_with_a_pause_is_a_line_after_each)
 {
     run_into_file("--progress 1000");
-    assert_int_equal(count("plan: 4 cells, 0 of them done"), 1);
-    assert_int_equal(count(": ok, "), 0);
+    assert_int_equal(test_count(said, "plan: 4 cells, 0 of them done"), 1);
+    assert_int_equal(test_count(said, ": ok, "), 0);
     run_into_file("--progress 1e-9");
-    assert_true(count(": ok, ") == 4 && count("[0/4] tt ") >= 1);
+    assert_true(test_count(said, ": ok, ") == 4 && test_count(said, "[0/4] tt ") >= 1);
 }
 
 /* Moving lines are cut to the terminal's width, because a longer one could not be erased. */
@@ -82,16 +74,16 @@ TEST(progress_on_a_terminal_is_one_line_that_moves)
             fail_msg("%.60s", at);
     }
     assert_true(moved > 4);
-    assert_int_equal(count("\r\033[K4 cells measured in "), 1);
-    assert_int_equal(count(" s left\r\n"), 0); /* none remains */
+    assert_int_equal(test_count(said, "\r\033[K4 cells measured in "), 1);
+    assert_int_equal(test_count(said, " s left\r\n"), 0); /* none remains */
 }
 
 /* The table of all columns is twice as wide as a terminal. */
 TEST(a_run_on_a_terminal_ends_with_the_best_rows)
 {
     run_on_terminal(100);
-    assert_int_equal(count("* certified"), 1);
-    assert_int_equal(count("mote summarize "), 1);
+    assert_int_equal(test_count(said, "* certified"), 1);
+    assert_int_equal(test_count(said, "mote summarize "), 1);
     for (const char *line = strstr(said, "tt: 1380"); line && *line;) {
         const size_t length = strcspn(line, "\r\n");
         assert_true(length <= 100);

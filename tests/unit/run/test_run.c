@@ -56,9 +56,9 @@ TEST(run_of_two_methods_leaves_a_cell_each_replicate)
     assert_int_equal(count_cells(".csv"), 4);
     assert_int_equal(count_cells(".part"), 0);
     json_t *manifest = read_json("manifest.json");
-    static const char *const keys[] = {"commit", "dirty",     "compiler",
-                                       "flags",  "libraries", "processor",
-                                       "kernel", "seed",      "sessions"};
+    static const char *const keys[] = {"commit",    "dirty",     "compiler", "flags",
+                                       "libraries", "processor", "kernel",   "seed",
+                                       "sessions",  "huge_pages"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i)
         assert_non_null(json_object_get(manifest, keys[i]));
     json_decref(manifest);

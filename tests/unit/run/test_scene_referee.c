@@ -70,6 +70,41 @@ TEST(mote_scene_referee_finds_wrong_distances_and_contacts)
     assert_non_null(strstr(mote_error_text(), "contact: brute force"));
 }
 
+/* A pair whose contact is told wrongly; within rounding of the tolerance either is right. */
+static void judge_contact(uint32_t number, mote_near_pair pair)
+{
+    const double tolerance = subject.bodies->tolerance;
+    const bool contact = pair.answer.distance <= 0;
+    pair.answer.has_distance = false;
+    pair.answer.contact = !contact;
+    subject.bodies->tolerance = 1e-3 * subject.bodies->length;
+    assert_int_equal(judge(number, &pair, 1), MOTE_ENUMERIC);
+    assert_non_null(strstr(mote_error_text(),
+                           contact ? "apart, which is contact" : "apart, which is no contact"));
+    subject.bodies->tolerance = pair.answer.distance;
+    if (judge(number, &pair, 1) != MOTE_OK)
+        assert_non_null(strstr(mote_error_text(), "not among the near pairs"));
+    subject.bodies->tolerance = tolerance;
+}
+
+TEST(mote_scene_referee_names_wrong_contacts_either_way)
+{
+    mote_near_pair pairs[PAIRS_MAX];
+    bool seen[2] = {false, false};
+    for (uint32_t k = 1; k <= FRAMES; ++k) {
+        const size_t count = ask(k, pairs);
+        for (size_t i = 0; i < count; ++i) {
+            const double distance = pairs[i].answer.distance;
+            if (seen[distance > 0] ||
+                (distance > 0 && distance < 0.01 * subject.bodies->length))
+                continue;
+            seen[distance > 0] = true;
+            judge_contact(k, pairs[i]);
+        }
+    }
+    assert_true(seen[0] && seen[1]);
+}
+
 /* Without any pair the frame's body has lost its neighbours, in frames in which it has one. */
 TEST(mote_scene_referee_finds_pairs_that_are_missing)
 {

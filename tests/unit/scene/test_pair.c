@@ -69,8 +69,9 @@ static const char *find_line(const char *text, const char *name)
 
 static bool is_large(const char *name)
 {
-    static const char *const large[] = {"ww-100k",    "ww-1m",      "ww-10m",     "bison-60k",
-                                        "bison-240k", "jumper-80k", "jumper-330k"};
+    static const char *const large[] = {"ww-100k",     "ww-1m",           "ww-10m",
+                                        "bison-60k",   "bison-240k",      "jumper-80k",
+                                        "jumper-330k", "jumper-near-330k"};
     for (size_t i = 0; i < ROWS_OF(large); ++i) {
         if (strcmp(name, large[i]) == 0)
             return true;

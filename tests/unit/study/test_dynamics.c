@@ -6,7 +6,10 @@
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <stddef.h>
@@ -378,6 +381,73 @@ TEST(command_dynamics_goes_on_where_it_stopped)
     const char *second = strstr(first + 1, "dynamics: tt,");
     assert_non_null(second);
     assert_null(strstr(second + 1, "dynamics: tt,"));
+}
+
+static int count_measured(void)
+{
+    return (int)test_count(said, "dynamics: tt,");
+}
+
+/* Replaces a text once in a stored row. */
+static void change_row(const char *name, const char *from, const char *to)
+{
+    char *path = mote_format(OUT "/rows/%s.json", name);
+    char *row = file_text(path), *at = strstr(row, from);
+    assert_non_null(at);
+    char *changed = mote_format("%.*s%s%s", (int)(at - row), row, to, at + strlen(from));
+    file_put(path, changed);
+    free(changed);
+    free(row);
+    free(path);
+}
+
+TEST(command_dynamics_measures_rows_again_that_lack_something)
+{
+    run_study();
+    change_row("tt-particle-n-8", "\"program\"", "\"programs\"");
+    change_row("tt-particle-paper-n-1-law-log", "\"measured\"", "\"measures\"");
+    change_row("tt-particle-paper-n-2-law-log", "\"commit\"", "\"commits\"");
+    change_row("tt-particle-paper-n-4-law-log", "\"wanted\": 2", "\"wanted\": 3");
+    change_row("tt-particle-paper-n-5-law-log", "\"steps\"", "\"stairs\"");
+    run_study();
+    assert_int_equal(count_measured(), 5);
+    run_study();
+    assert_int_equal(count_measured(), 0);
+}
+
+/* Another process measures rows, and ends without having stored one. */
+TEST(command_dynamics_waits_for_rows_of_another_process)
+{
+    int ready[2];
+    char byte = 0;
+    assert_int_equal(unlink(ROW), 0);
+    assert_int_equal(pipe(ready), 0);
+    const pid_t other = fork();
+    if (other == 0) {
+        struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+        const int lock = open(OUT "/rows/lock", O_RDWR);
+        const struct timespec half = {0, 500000000};
+        const bool locked = lock >= 0 && fcntl(lock, F_SETLK, &whole) == 0;
+        if (!locked || write(ready[1], "", 1) != 1 || nanosleep(&half, NULL) != 0)
+            _exit(1);
+        _exit(0);
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    run_study();
+    assert_int_equal(count_measured(), 1);
+    int status = 1;
+    assert_int_equal(waitpid(other, &status, 0), other);
+    assert_int_equal(status, 0);
+    assert_int_equal(close(ready[0]) + close(ready[1]), 0);
+}
+
+/* Steps within which bodies have paths: neither particles nor the claim about them. */
+TEST(command_dynamics_of_one_step_leaves_particles_out)
+{
+    mote_expect(0, "sampled", LINE " --step 3");
+    assert_int_equal(count_measured(), 0);
+    assert_null(strstr(said, "tt, n = 3"));
+    assert_null(strstr(said, "particle"));
 }
 
 /* With --keep rows of other builds stay, and name their sources. */

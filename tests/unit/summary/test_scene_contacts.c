@@ -155,7 +155,9 @@ TEST(mote_scene_contacts_count_names_the_line_that_is_no_pair)
                  {"2,1,2,1,0,0,1,1\n1,1,2,1,0,0,1,1\n", "c.pairs.csv:3"},
                  {"0,1,2,1,0,0,1,1\n", "c.pairs.csv:2"},
                  {"1,x,2,1,0,0,1,1\n", "c.pairs.csv:2"},
+                 {"1,1,5000000000,1,0,0,1,1\n", "c.pairs.csv:2"},
                  {"1,1,2\n", "c.pairs.csv:2"},
+                 {"1,1,2,1\n1,1,3,1,0,0,1,1\n", "c.pairs.csv:2"},
                  {"1,1,2,1,0,0,1", "c.pairs.csv:2"}};
     mote_stored_cell cell = cell_of("certified", "near", "c", numbers);
     for (size_t k = 0; k < ROWS_OF(cases); ++k) {

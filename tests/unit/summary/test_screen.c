@@ -89,10 +89,8 @@ TEST(a_long_front_is_cut_where_it_is_least_accurate)
     }
     write_method((stored_cell){.method = "poor"}, 5, 0.9, 1);
     assert_int_equal(summarize_best(), 0);
-    size_t rows = 0;
-    for (const char *at = said; (at = strstr(at, "\n* ")) != NULL; ++at)
-        ++rows;
-    assert_int_equal(rows, MOTE_SCREEN_ROWS + 1); /* including the line that explains them */
+    /* including the line that explains them */
+    assert_int_equal(test_count(said, "\n* "), MOTE_SCREEN_ROWS + 1);
     IN_ORDER("\n* poor ", "\n* ours:n=12 ", "\n* ours:n=30 ", "11 more in the report");
     assert_null(strstr(said, "n=11 "));
 }
@@ -179,4 +177,71 @@ TEST(engines_are_best_by_each_statistic)
         "worst", "fcl-aabb\n", "best FCL: median 30.0 ns: fcl-obb; mean 42.5", ": fcl-aabb\n");
     assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
     mote_expect(2, "--engines is for --format table", "summarize --engines --format json .");
+}
+
+/* Times of cells that ran beside others are not comparable: such rows come last, and are best
+   at nothing. */
+TEST(rows_without_comparable_times_come_last)
+{
+    static const char *const order[] = {"a-beside", "b", "c-beside", "d"};
+    for (size_t k = 0; k < ROWS_OF(order); ++k)
+        write_method((stored_cell){.method = order[k],
+                                   .more = strchr(order[k], '-') ? ", \"jobs\": 2" : ""},
+                     10 + 10 * (double)k, 0, 0);
+    write_method((stored_cell){.method = "fcl-obb", .more = ", \"jobs\": 2"}, 5, 0, 0);
+    write_method((stored_cell){.method = "fcl-aabb"}, 500, 0, 0);
+    write_method((stored_cell){.method = "fcl-rss"}, 1, 0, 1); /* misses a contact */
+    assert_int_equal(mote("summarize --engines ."), 0);
+    IN_ORDER("\n  fcl-rss ", "\n  b ", "\n  d ", "\n* fcl-aabb ", "\n  fcl-obb ", "-beside ",
+             "-beside ", "\nbest FCL: median 500 ns, mean 500 ns, p95 5", ": fcl-aabb\n");
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER(" b ", "-beside ");
+}
+
+/* Every method is shown, however many there are. */
+TEST(representatives_of_methods_are_never_dropped)
+{
+    for (int k = 1; k <= MOTE_SCREEN_ROWS + 4; ++k) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "m%02d", k);
+        write_method((stored_cell){.method = name}, 10 * k, 0.01 * (30 - k), 0);
+    }
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("\n* m01 ", "\n* m23 ", "\n* m24 ");
+    assert_null(strstr(said, "more in the report"));
+}
+
+/* The rows that ratios are relative to are named, one or both. */
+TEST(rivals_are_named)
+{
+    write_engine("ours", 5, 5, 0);
+    assert_int_equal(summarize_best(), 0);
+    assert_null(strstr(said, "best engine"));
+    assert_null(strstr(said, "\nbest FCL"));
+    assert_int_equal(mote("summarize --engines ."), 0);
+    assert_null(strstr(said, "best engine of others"));
+    write_engine("ode", 20, 20, 0);
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("best engine: ode");
+    assert_null(strstr(said, "best FCL:"));
+    write_engine("fcl-aabb", 40, 40, 0);
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("best engine: ode; best FCL:", "fcl-aabb");
+}
+
+/* What scenarios ask for, and which positions are given, stands in the headings of engines. */
+TEST(headings_of_engines_say_what_is_asked)
+{
+    write_method((stored_cell){.method = "fcl-aabb", .more = ", \"ask\": \"contact\""}, 100, 0,
+                 0);
+    write_method((stored_cell){.method = "ours",
+                               .more = ", \"ask\": \"contact\", \"told\": \"positions\"",
+                               .parameters = "{\"positions\": \"given\"}"},
+                 10, 0, 0);
+    assert_int_equal(mote("summarize --engines ."), 0);
+    IN_ORDER("s, asked for contact: 8 and 8 triangles", "\n* fcl-aabb ", "\npositions=given",
+             "\n  ours");
+    assert_null(strstr(said, "told the positions"));
+    assert_int_equal(summarize_best(), 0);
+    assert_non_null(strstr(said, "told the positions"));
 }

@@ -325,8 +325,12 @@ TEST(samples_change_no_distance)
     options.sample_count[0] = 65;
     assert_int_equal(mote_batch_create(meshes, fields, &options, &batch), MOTE_EINVAL);
     options.sample_count[0] = 0;
-    options.slack = -1;
-    assert_int_equal(mote_batch_create(meshes, fields, &options, &batch), MOTE_EINVAL);
+    static const double slacks[3] = {HUGE_VAL, -1, NAN};
+    for (size_t k = 0; k < ROWS_OF(slacks); ++k) {
+        options.slack = slacks[k];
+        assert_int_equal(mote_batch_create(meshes, fields, &options, &batch), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), "it must be finite and not negative"));
+    }
     two_free();
 }
 
@@ -429,5 +433,56 @@ TEST(a_body_whose_positions_are_given_is_refused)
                      MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "body 1 has no field"));
     mote_field_destroy(given);
+    mote_mesh_destroy(mesh);
+}
+
+/* Two bodies of one mesh and field have one tree, unless samples make two of it. */
+TEST(bodies_of_one_shape_share_their_tree)
+{
+    two_init(kinds[0], 87);
+    const mote_mesh *const meshes[2] = {t.body[0].mesh, t.body[0].mesh};
+    const mote_field *const fields[2] = {t.body[0].field, t.body[0].field};
+    mote_batch_options options = mote_default_batch_options();
+    static double distance[2][FRAMES];
+    size_t bytes[2];
+    for (int sampled = 0; sampled < 2; ++sampled) {
+        options.sample_count[1] = sampled ? 1 : 0;
+        options.samples[1] = t.controls[1];
+        mote_batch *batch = NULL;
+        assert_int_equal(mote_batch_create(meshes, fields, &options, &batch), MOTE_OK);
+        run_batch(batch, STRETCH, 1);
+        memcpy(distance[sampled], t.distance, sizeof t.distance);
+        bytes[sampled] = mote_batch_bytes(batch);
+        mote_batch_destroy(batch);
+    }
+    for (int f = 0; f < FRAMES; ++f)
+        assert_true(fabs(distance[0][f] - distance[1][f]) <= 1e-12);
+    assert_true(bytes[1] > bytes[0] + 4000);
+    two_free();
+}
+
+/* Each number is in range, but not the sum of what they move. */
+TEST(amounts_of_enormous_targets_are_refused)
+{
+    static const uint32_t start[2] = {0, 1}, vertex[1] = {3};
+    static const mote_vec3 move[1] = {{0, 1e300, 0}};
+    const mote_morph_targets targets = {1, start, vertex, move};
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const mote_body body = {.mesh = mesh, .field = field};
+    double room[3 * 8], amount = 1e7;
+    assert_true(field->padded <= 8);
+    const mote_controls controls = {.amounts = &amount};
+    mote_body_state state;
+    assert_int_equal(mote_controls_read(&body, &controls, 0, mesh->diagonal, room, &state),
+                     MOTE_OK);
+    amount = 1e9;
+    assert_int_equal(mote_controls_read(&body, &controls, 0, mesh->diagonal, room, &state),
+                     MOTE_EINVAL);
+    assert_non_null(
+        strstr(mote_error_text(), "amounts: times what they move, they leave the range"));
+    mote_field_destroy(field);
     mote_mesh_destroy(mesh);
 }

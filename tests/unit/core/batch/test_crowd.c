@@ -185,6 +185,33 @@ TEST(a_scene_that_asks_for_contacts_says_the_same)
     crowd_free(&c);
 }
 
+/* Bodies of one shape in one place: all pairs are found, each once, and touch. */
+TEST(bodies_in_one_place_are_all_found)
+{
+    crowd_init(&c, 6, 400, 4);
+    const mote_mesh *mesh = c.shape[0]->mesh;
+    const mote_field *still = NULL;
+    static const uint32_t shape_of[5];
+    static const mote_controls controls[5];
+    mote_crowd *made = NULL;
+    size_t count = 0;
+    assert_int_equal(mote_crowd_create(&mesh, &still, 1, shape_of, 5, NULL, &made), MOTE_OK);
+    assert_int_equal(mote_crowd_step(made, controls, 0, &count), MOTE_OK);
+    assert_int_equal(count, 10);
+    uint32_t pairs[10][2];
+    double distance[10];
+    mote_crowd_pairs(made, pairs[0], distance, NULL, NULL, NULL);
+    size_t k = 0;
+    for (uint32_t i = 0; i < 5; ++i) {
+        for (uint32_t j = i + 1; j < 5; ++j, ++k) {
+            assert_true(pairs[k][0] == i && pairs[k][1] == j);
+            assert_true(distance[k] <= 0);
+        }
+    }
+    mote_crowd_destroy(made);
+    crowd_free(&c);
+}
+
 TEST(bad_input_is_named)
 {
     crowd_init(&c, 6, 400, 4);
@@ -201,7 +228,8 @@ TEST(bad_input_is_named)
     assert_int_equal(mote_field_create_given(&given), MOTE_OK);
     const mote_mesh *mesh = c.shape[0]->mesh;
     const mote_field *still = NULL, *known = given;
-    const mote_crowd_options threads = {.threads = 257}, fine = {.threads = 1};
+    const mote_crowd_options threads = {.threads = 257}, none = {.threads = 0};
+    const mote_crowd_options fine = {.threads = 1};
     const mote_crowd_options tolerance = {.threads = 1, .tolerance = -1};
     const struct {
         const mote_field **field;
@@ -211,8 +239,11 @@ TEST(bad_input_is_named)
         const char *said;
     } bad[] = {{&still, 0, 1, 0, &fine, "1 to 2^31 - 1"},
                {&still, 1, 0, 0, &fine, "1 to 2^31 - 1"},
+               {&still, UINT32_MAX / 2 + 1u, 1, 0, &fine, "1 to 2^31 - 1"},
+               {&still, 1, UINT32_MAX / 2 + 1u, 0, &fine, "1 to 2^31 - 1"},
                {&still, 1, 1, 1, &fine, "body 0 has shape 1 of 1"},
                {&still, 1, 1, 0, &threads, "threads: 257"},
+               {&still, 1, 1, 0, &none, "threads: 0"},
                {&still, 1, 1, 0, &tolerance, "tolerance"},
                {&known, 1, 1, 0, &fine, "shape 0 has no field"}};
     for (size_t k = 0; k < ROWS_OF(bad); ++k) {

@@ -178,10 +178,15 @@ TEST(bad_input_is_named)
     assert_int_equal(run_batch(batch, positions, 1, 1), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "frame 0, body 0"));
     mote_stream_batch_destroy(batch);
-    mote_batch_options options = mote_default_batch_options();
-    options.slack = (double)INFINITY;
-    assert_int_equal(mote_stream_batch_create((const mote_mesh *const[2]){t.mesh[0], t.mesh[1]},
-                                              &options, &batch),
-                     MOTE_EINVAL);
+    static const double slacks[3] = {HUGE_VAL, -1, NAN};
+    for (size_t k = 0; k < ROWS_OF(slacks); ++k) {
+        mote_batch_options options = mote_default_batch_options();
+        options.slack = slacks[k];
+        assert_int_equal(
+            mote_stream_batch_create((const mote_mesh *const[2]){t.mesh[0], t.mesh[1]},
+                                     &options, &batch),
+            MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), "it must be finite and not negative"));
+    }
     two_free();
 }

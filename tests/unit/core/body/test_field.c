@@ -1,7 +1,7 @@
 /* Fields of the three kinds against closed forms, finite differences and explicit sums. */
 #include "core/body/field.h"
 
-#include "tests/support/solids.h"
+#include "tests/support/bodies.h"
 #include "tests/support/test.h"
 
 /* Weights in the three padded arrays. */
@@ -387,6 +387,44 @@ TEST(displacement_of_a_kind_without_one_sums_its_basis)
     }
     mote_field_destroy(field);
     mote_mesh_destroy(mesh);
+}
+
+/* Likewise in single precision, dense and sparse. */
+TEST(displacement_single_of_a_kind_without_one_sums_its_basis)
+{
+    uint64_t seed = 10;
+    test_body bodies[2];
+    test_body_init(&bodies[0], solid_to_mesh(solid_icosphere(1)), 14, &seed);
+    skin_body_init(&bodies[1], solid_to_mesh(solid_icosphere(1)), 5, 0, &seed);
+    for (int b = 0; b < 2; ++b) {
+        const mote_field *field = bodies[b].field;
+        mote_field_kind kind = *field->kind;
+        kind.displacement = NULL;
+        kind.displacement_single = NULL;
+        mote_field plain = *field;
+        plain.kind = &kind;
+        weight_set set;
+        draw_weights(&set, field, &seed);
+        float single[3][MOTE_FIELD_SUMMED];
+        for (uint32_t j = 0; j < field->padded; ++j) {
+            single[0][j] = (float)set.x[j];
+            single[1][j] = (float)set.y[j];
+            single[2][j] = (float)set.z[j];
+        }
+        const mote_weights_single weights = {single[0], single[1], single[2], field->padded};
+        for (uint32_t v = 0; v < bodies[b].mesh->vertex_count; ++v) {
+            const mote_vec3 expected =
+                mote_field_displacement(field, bodies[b].mesh, v, &set.weights);
+            const mote_vec3 sum =
+                mote_field_displacement(&plain, bodies[b].mesh, v, &set.weights);
+            float got[3];
+            mote_field_displacement_single(&plain, bodies[b].mesh, v, &weights, got);
+            assert_close(mote_length(mote_sub(sum, expected)), 0, 1e-14);
+            const mote_vec3 rounded = {(double)got[0], (double)got[1], (double)got[2]};
+            assert_close(mote_length(mote_sub(rounded, expected)), 0, 1e-5);
+        }
+        test_body_free(&bodies[b]);
+    }
 }
 
 TEST(static_field_displaces_by_zero)

@@ -302,6 +302,33 @@ TEST(fetch_in_single_precision_evaluates_nothing)
     test_body_free(&b);
 }
 
+/* Positions that are given in records of the caller's are fetched as they are read. */
+TEST(fetch_of_given_positions_evaluates_nothing)
+{
+    uint64_t seed = 9;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_triangle()), 3, &seed);
+    const double given[3][4] = {{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}};
+    const uint32_t vertices[3] = {2, 0, 1};
+    for (size_t stride = 3; stride <= 4; ++stride) {
+        const mote_positions points = {given, stride * sizeof(double), false};
+        mote_lazy lazy;
+        init_lazy(&lazy, &b.body, 3, false);
+        mote_lazy_begin_points(&lazy, &points);
+        mote_lazy_fetch(&lazy, vertices, 3);
+        mote_lazy_fetch_rings(&lazy, vertices, 3);
+        assert_int_equal(lazy.evaluated, 0);
+        assert_int_equal(lazy.filled, 0);
+        for (uint32_t v = 0; v < 3; ++v) {
+            const mote_vec3 got = mote_lazy_position(&lazy, v);
+            const mote_vec3 expected = mote_position_at(&points, v);
+            assert_memory_equal(&got, &expected, sizeof got);
+        }
+        mote_lazy_free(&lazy);
+    }
+    test_body_free(&b);
+}
+
 /* A table of 2^31 entries is the largest; it does not remember more. (No such table is
    allocated: only its first entry is used.) */
 TEST(position_in_the_largest_table_is_not_remembered)

@@ -125,3 +125,44 @@ TEST(mote_path_velocity_is_the_derivative)
     free(numbers);
     test_body_free(&body);
 }
+
+/* Without control points of weights a body moves as if it were rigid. */
+TEST(mote_path_without_weights_is_rigid)
+{
+    uint64_t seed = 7;
+    for (int morphs = 0; morphs < 2; ++morphs) {
+        test_body body;
+        mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+        if (morphs)
+            skin_body_init(&body, mesh, 2, 3, &seed);
+        else
+            test_body_init(&body, mesh, 3, &seed);
+        mote_path_piece piece = {.spins = true, .turn = {none}, .spin = {1, -2, 3}};
+        for (int i = 0; i < 4; ++i)
+            piece.centre[i] = random_vec3(&seed, 1);
+        const mote_path path = {.pivot = {0.3, 0, 0}, .pieces = &piece, .count = 1};
+        double numbers[3 * 64];
+        assert_true(body.field->padded <= 64);
+        for (size_t i = 0; i < ROWS_OF(numbers); ++i)
+            numbers[i] = 1e9;
+        mote_body_state state;
+        mote_path_state(&path, &body.body, 0.3, numbers, &state);
+        for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+            const mote_vec3 got = mote_body_position(&body.body, &state, v);
+            const mote_vec3 rigid = mote_pose_apply(&state.pose, mesh->positions[v]);
+            assert_close(mote_length(mote_sub(got, rigid)), 0, 1e-14);
+        }
+        const size_t padded = body.field->padded;
+        double expected[3 * 64];
+        if (morphs) { /* as written for no matrices and no amounts */
+            mote_morph_weights(body.field, NULL, NULL, &state.pose.rotation, expected,
+                               expected + padded, expected + 2 * padded);
+            assert_memory_equal(numbers, expected, 3 * padded * sizeof *numbers);
+        } else {
+            mote_path_velocity(&path, &body.body, (mote_place){0, 0.3}, 1, numbers, &state);
+            for (size_t i = 0; i < 3 * padded; ++i)
+                assert_true(numbers[i] == 0);
+        }
+        test_body_free(&body);
+    }
+}

@@ -181,3 +181,42 @@ TEST(boxes_without_samples_are_those_at_rest)
     mote_sample_boxes_free(&boxes);
     sheets_free(&s);
 }
+
+/* Triangles that are points in a row: no box has an area, and the row is parted all the same.
+ */
+TEST(split_of_points_in_a_row_parts_the_row)
+{
+    enum { POINTS = 40 };
+    mote_sample_box box[POINTS];
+    uint32_t all[POINTS];
+    for (uint32_t i = 0; i < POINTS; ++i) {
+        all[i] = i;
+        box[i] = (mote_sample_box){{0, (float)i, 0}, {0, (float)i, 0}};
+    }
+    const mote_sample_boxes boxes = {.poses = 1, .triangles = POINTS, .box = box};
+    const mote_sample_split split = mote_sample_split_best(&boxes, all, POINTS, 0);
+    assert_int_equal(split.axis, 1);
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < POINTS; ++i)
+        left += mote_sample_key(&boxes, 0, 1, i) < split.at;
+    assert_in_range(left, POINTS / 8, POINTS - POINTS / 8);
+}
+
+/* Fewer triangles go left than one of those by which many are judged stands for. */
+TEST(split_of_few_from_many_is_along_the_row)
+{
+    enum { CUBES = 4000 };
+    static mote_sample_box box[CUBES];
+    static uint32_t all[CUBES];
+    for (uint32_t i = 0; i < CUBES; ++i) {
+        const float at = (float)i;
+        all[i] = i;
+        box[i] = (mote_sample_box){{0, 0, at}, {1, 1, at + 1}};
+    }
+    const mote_sample_boxes boxes = {.poses = 1, .triangles = CUBES, .box = box};
+    for (uint32_t left = 1; left < 200; left *= 3) {
+        const mote_sample_split split = mote_sample_split_best(&boxes, all, CUBES, left);
+        assert_int_equal(split.axis, 2);
+        assert_true(split.at > 0 && split.at < 2 * CUBES);
+    }
+}

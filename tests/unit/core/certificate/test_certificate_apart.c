@@ -104,3 +104,34 @@ TEST(contact_after_a_leap_is_that_of_all_pairs)
     mote_certificate_destroy(c);
     scene_free(&s);
 }
+
+/* Places body 1 along x, in the frame and in the world. */
+static void place_at(scene *s, double x)
+{
+    s->frame.body[1].pose.translation = mote_vec3_make(x * s->length, 0, 0);
+    mote_deform_all(s->deform[1], &s->frame.body[1], s->world[1]);
+}
+
+/* On the other side, so far away that a float cannot hold it, no direction is found; and so far
+   that a double cannot hold its square, none is kept. The bracket is true all the same. */
+TEST(contact_after_a_leap_beyond_floats_is_denied)
+{
+    static const double places[] = {2, -1e45, 3, -1e160, 1e170, 2};
+    for (int deforming = 0; deforming < 2; ++deforming) {
+        scene s;
+        scene_init(&s, 18, 9, 1, deforming);
+        mote_certificate *c = certificate_of(&s, NULL);
+        scene_next(&s, 1, false);
+        for (size_t k = 0; k < ROWS_OF(places); ++k) {
+            place_at(&s, places[k]);
+            ++s.frame.number;
+            mote_certificate_answer a;
+            mote_certificate_query(c, &s.frame, NULL, 0, &a);
+            test_row("%d at %g", deforming, places[k]);
+            assert_true(a.lower > 0 && a.lower <= fabs(places[k]) * s.length);
+            assert_true(a.distance >= 0.5 * fabs(places[k]) * s.length);
+        }
+        mote_certificate_destroy(c);
+        scene_free(&s);
+    }
+}

@@ -176,6 +176,38 @@ TEST(hulls_of_leaves_are_where_their_vertices_are)
     }
 }
 
+/* Two triangles apart along x. Where squares leave the range of floats, nothing is ruled out.
+ */
+TEST(hulls_are_apart_along_a_direction_within_the_range_of_floats)
+{
+    static const struct {
+        float apart, need;
+        bool is_apart;
+    } rows[] = {{3, 2, true}, {3, 4, false}, {1e18F, 2, true}, {1e20F, 2, false}};
+    static const uint8_t corners[1][3] = {{0, 1, 2}};
+    static const float along[3] = {1, 0, 0};
+    /* the other way round, none, and one so short that its square loses bits */
+    static const float others[3][3] = {{-1, 0, 0}, {0, 0, 0}, {1e-16F, 0, 0}};
+    for (size_t k = 0; k < ROWS_OF(rows); ++k) {
+        float x[2][3][MOTE_CERT_WIDTH] = {{{0}}};
+        mote_cert_hulls pair = {.leaf = {{.groups = 1, .corners = corners, .faces = 1},
+                                         {.groups = 1, .corners = corners, .faces = 1}}};
+        for (int s = 0; s < 2; ++s) {
+            for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+                x[s][0][l] = s ? rows[k].apart : 0;
+                x[s][1][l] = l == 1;
+                x[s][2][l] = l == 2;
+            }
+            for (int r = 0; r < 3; ++r)
+                pair.leaf[s].x[r] = x[s][r];
+        }
+        test_row("%g apart, %g needed", (double)rows[k].apart, (double)rows[k].need);
+        assert_int_equal(mote_cert_hulls_along(&pair, along, rows[k].need), rows[k].is_apart);
+        for (size_t i = 0; i < ROWS_OF(others); ++i)
+            assert_false(mote_cert_hulls_along(&pair, others[i], rows[k].need));
+    }
+}
+
 /* A triangle in a cube of the given size about a centre. */
 static void random_corners(scene *s, double size, double centre,
                            float corner[3][3][MOTE_CERT_FACE_LANES], uint32_t lane)

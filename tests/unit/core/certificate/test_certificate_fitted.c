@@ -319,11 +319,17 @@ TEST(field_allocate_of_too_many_functions_says_what)
 {
     const mote_field_kind summed = {
         .name = "summed", .basis = patch_basis, .destroy = patch_destroy};
+    /* one that adds up doubles by itself, and not floats */
+    mote_field_kind half_summed = summed;
+    half_summed.displacement = patch_displacement;
     mote_field mark;
     mote_field *field = &mark;
-    assert_int_equal(mote_field_allocate(&summed, 257, &field), MOTE_EINVAL);
-    assert_string_equal(mote_error_text(),
-                        "a field of kind summed has at most 256 basis functions, not 257");
+    const mote_field_kind *const kinds[2] = {&summed, &half_summed};
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(mote_field_allocate(kinds[k], 257, &field), MOTE_EINVAL);
+        assert_string_equal(mote_error_text(),
+                            "a field of kind summed has at most 256 basis functions, not 257");
+    }
     assert_int_equal(mote_field_allocate(&sparse_kind, 65529, &field), MOTE_EINVAL);
     assert_string_equal(
         mote_error_text(),

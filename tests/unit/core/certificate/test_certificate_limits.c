@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "tests/support/certificate_scene.h"
+#include "tests/support/methods.h"
 #include "tests/support/test.h"
 
 TEST(query_with_slack_returns_a_bracket)
@@ -59,6 +60,63 @@ TEST(query_far_beyond_the_range_of_floats_finds_the_nearest)
     }
     mote_certificate_destroy(c);
     scene_free(&s);
+}
+
+/* Nor can a double hold the square of the distance: it is infinite then, until the bodies come
+   back. A tracker finds no pair there, and certified does without. */
+TEST(query_beyond_the_range_of_squares_is_infinite)
+{
+    static const char *const keys[] = {"", "seed=tracked", "seed=none"};
+    for (size_t k = 0; k < ROWS_OF(keys); ++k) {
+        scene s;
+        scene_init(&s, 18, 9, 1, true);
+        method_run u;
+        method_run_init(&u, "certified", keys[k], scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL));
+        for (int frame = 0; frame < 3; ++frame) {
+            const bool far = frame < 2;
+            scene_next(&s, 1, false);
+            if (far)
+                s.frame.body[1].pose.translation.x = 1e200;
+            mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
+            const mote_answer a = method_run_ask(&u, &s.frame);
+            const double truth = far ? HUGE_VAL : scene_distance(&s);
+            test_row("%s, frame %d", keys[k], frame);
+            assert_true(a.lower >= 0 && a.lower <= truth);
+            assert_true(far ? isinf(a.distance) && !a.contact
+                            : fabs(a.distance - truth) <= 1e-12 * s.length);
+        }
+        method_run_free(&u);
+        scene_free(&s);
+    }
+}
+
+/* Contact is reported where the bracket shows it, or where nothing ended the query early. */
+TEST(report_says_whether_contact_is_decided)
+{
+    static const struct {
+        double lower, distance;
+        bool stopped, exact, has_contact, contact;
+    } rows[] = {{0.1, 0.5, false, false, true, true}, /* within the tolerance, 1 */
+                {1.5, 2, false, false, true, false},  /* beyond it */
+                {1.5, 2, true, false, true, false},
+                {0.5, 2, false, false, false, false}, /* by the slack alone not decided */
+                {0.5, 2, true, true, false, false},   /* nor by a budget */
+                {1, 1.0000001, false, true, true, false}};
+    for (size_t k = 0; k < ROWS_OF(rows); ++k) {
+        for (int ask = 0; ask < 2; ++ask) {
+            const mote_certificate_answer bracket = {.lower = rows[k].lower,
+                                                     .distance = rows[k].distance,
+                                                     .stopped = rows[k].stopped};
+            mote_answer a = {.has_distance = false};
+            mote_certificate_report(&bracket, ask ? MOTE_ASK_CONTACT : MOTE_ASK_DISTANCE, 1,
+                                    rows[k].exact, &a);
+            test_row("row %zu, asking for %s", k, ask ? "contact" : "the distance");
+            assert_int_equal(a.has_contact, rows[k].has_contact);
+            assert_int_equal(a.contact, rows[k].contact);
+            assert_int_equal(a.has_distance, !ask);
+            assert_int_equal(a.has_witness, !ask || rows[k].contact);
+        }
+    }
 }
 
 TEST(query_with_budget_returns_an_honest_bracket)

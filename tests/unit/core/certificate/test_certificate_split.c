@@ -1,7 +1,9 @@
 /* Splitting triangles for the certificate's tree. Two clusters are known, and the parts are
    held against them. */
 #include "core/certificate/certificate_split.h"
+#include "core/certificate/certificate_tree.h"
 
+#include "tests/support/certificate_scene.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
@@ -64,7 +66,7 @@ TEST(at_rest_alone_triangles_are_halved_across_the_longest_side)
         for (uint32_t t = 0; t < count; ++t)
             centres[t][2] *= 50;
         const mote_cert_poses poses = poses_of(count, 1);
-        assert_true(mote_cert_split(&poses, items, count, count) == count / 2);
+        assert_true(mote_cert_split(&poses, items, count, 1, count) == count / 2);
         check_all_there(items, count);
         float most = -1, least = 100;
         for (uint32_t i = 0; i < count; ++i) {
@@ -84,7 +86,7 @@ TEST(clusters_that_part_in_one_pose_are_split)
         for (uint32_t count = 60; count <= TRIANGLES; count *= 5) {
             place(count, count / 2, apart, items);
             const mote_cert_poses poses = poses_of(count, POSES);
-            const uint32_t half = mote_cert_split(&poses, items, count, count / 2);
+            const uint32_t half = mote_cert_split(&poses, items, count, 1, count / 2);
             check_all_there(items, count);
             assert_true(half == count / 2);
             assert_true(parts_clusters(items, count, half, count / 2));
@@ -99,13 +101,83 @@ TEST(parts_are_as_uneven_as_there_is_room_for)
     for (uint32_t first = 20; first <= 44; first += 24) {
         const mote_cert_poses poses = poses_of(64, POSES);
         place(64, first, 1, items);
-        const uint32_t half = mote_cert_split(&poses, items, 64, 44);
+        const uint32_t half = mote_cert_split(&poses, items, 64, 1, 44);
         check_all_there(items, 64);
         assert_true(parts_clusters(items, 64, half, first));
         place(64, first, 1, items);
-        const uint32_t less = mote_cert_split(&poses, items, 64, 40);
+        const uint32_t less = mote_cert_split(&poses, items, 64, 1, 40);
         check_all_there(items, 64);
         assert_true(less >= 24 && less <= 40);
+    }
+}
+
+/* 20 of 64 apart from 44: found where a part may be as small as that, not where it may not. */
+TEST(parts_have_as_many_triangles_as_they_need)
+{
+    static mote_cert_item items[TRIANGLES];
+    const mote_cert_poses poses = poses_of(64, POSES);
+    for (uint32_t least = 20; least <= 32; least += 3) {
+        place(64, 20, 1, items);
+        const uint32_t half = mote_cert_split(&poses, items, 64, least, 44);
+        check_all_there(items, 64);
+        assert_true(half >= least && half <= 64 - least);
+        assert_int_equal(parts_clusters(items, 64, half, 20), least == 20);
+    }
+}
+
+/* Separate triangles about the origin, but the first, which is far away. */
+static mote_mesh *mesh_with_a_far_triangle(uint32_t count)
+{
+    uint64_t seed = count;
+    double *xyz = malloc(9 * (size_t)count * sizeof *xyz);
+    uint32_t *corner = malloc(3 * (size_t)count * sizeof *corner);
+    assert_true(xyz && corner);
+    for (uint32_t v = 0; v < 3 * count; ++v) {
+        const mote_vec3 x = random_vec3(&seed, 1);
+        corner[v] = v;
+        xyz[3 * v] = x.x + (v < 3 ? 30 : 0);
+        xyz[3 * v + 1] = x.y;
+        xyz[3 * v + 2] = x.z;
+    }
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(xyz, 3 * (size_t)count, corner, count, &mesh), MOTE_OK);
+    free(xyz);
+    free(corner);
+    return mesh;
+}
+
+/* A part of one triangle is split once for each level that the tree has below it, unless there
+   are enough triangles for all leaves. */
+TEST(trees_with_samples_have_no_empty_leaf)
+{
+    static const uint32_t counts[] = {33, 65, 129, 257, 300, 513};
+    static const double still[3 * MOTE_FIELD_SUMMED];
+    for (size_t k = 0; k < ROWS_OF(counts); ++k) {
+        scene s;
+        scene_init_meshes(&s, mesh_with_a_far_triangle(counts[k]), make_torus(9, 6, 1), true);
+        const mote_weights sample = {still, still, still, s.field[0]->count,
+                                     s.field[0]->padded};
+        s.body[0].samples = &sample;
+        s.body[0].sample_count = 1;
+        const mote_cert_tree_options options = {
+            .length = s.length, .width = 8, .linear_fits = true};
+        mote_cert_tree *tree = NULL;
+        test_row("%u triangles", counts[k]);
+        assert_int_equal(mote_cert_tree_create(&s.body[0], &options, &tree), MOTE_OK);
+        uint32_t triangles = 0;
+        for (uint32_t i = 0; i < tree->leaf_count; ++i) {
+            assert_in_range(tree->leaves[i].triangle_count, 1, MOTE_CERT_LEAF_TRIANGLES);
+            triangles += tree->leaves[i].triangle_count;
+        }
+        assert_int_equal(triangles, counts[k]);
+        mote_cert_tree_destroy(tree);
+        mote_certificate *c = certificate_of(&s, NULL);
+        for (int f = 0; f < 3; ++f) {
+            scene_next(&s, 1.2, false);
+            check_exact(&s, c, scene_distance(&s));
+        }
+        mote_certificate_destroy(c);
+        scene_free(&s);
     }
 }
 
@@ -117,7 +189,7 @@ TEST(few_and_equal_triangles_are_halved)
         memset(centres, 0, sizeof centres);
         const mote_cert_poses poses = poses_of(count, POSES);
         /* neither half holds `most`: halves, then */
-        assert_true(mote_cert_split(&poses, items, count, 0) == count / 2);
+        assert_true(mote_cert_split(&poses, items, count, 1, 0) == count / 2);
         check_all_there(items, count);
     }
 }

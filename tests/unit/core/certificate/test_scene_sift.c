@@ -161,12 +161,15 @@ TEST(mote_scene_sift_infinity_keeps_all_and_bad_input_is_refused)
     static const double bad[] = {-1, NAN};
     const uint32_t(*kept)[2] = NULL;
     size_t count = 0;
+    const size_t bytes = mote_scene_bytes(scene);
     assert_int_equal(mote_scene_sift(scene, c.states, HUGE_VAL, good, 2, &kept, &count),
                      MOTE_OK);
+    assert_int_equal(mote_scene_bytes(scene), bytes); /* nothing is looked at */
     assert_int_equal(count, 2);
     assert_memory_equal(kept, good, sizeof good);
     assert_int_equal(mote_scene_sift(scene, c.states, 1, good, 0, &kept, &count), MOTE_OK);
     assert_int_equal(count, 0);
+    assert_true(mote_scene_bytes(scene) >= bytes + 4 * sizeof(uint32_t));
     assert_int_equal(mote_scene_sift(scene, c.states, 1, turned, 1, &kept, &count),
                      MOTE_EINVAL);
     for (int k = 0; k < 2; ++k) {

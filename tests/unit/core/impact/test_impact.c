@@ -273,6 +273,12 @@ TEST(mote_impact_query_bad_pieces_are_refused)
     check_refused(&s, &good, "pass near 0");
     p->turn[2].w = NAN;
     check_refused(&s, &good, "pass near 0");
+    static const double lengths[] = {0, 1e150, 1e160}; /* squares of the last are infinite */
+    for (size_t i = 0; i < ROWS_OF(lengths); ++i) {
+        for (int k = 0; k < 4; ++k)
+            p->turn[k].w = lengths[i];
+        check_refused(&s, &good, "pass near 0");
+    }
     *p = kept;
     p->spins = true;
     p->spin.z = 2 * MOTE_PATH_SPIN_MAX;
@@ -299,16 +305,23 @@ TEST(mote_impact_create_refuses_what_it_cannot_answer)
     two_boxes(&s, 1, 1);
     const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
     mote_impact_search *made = NULL;
-    mote_impact_options bad[5];
-    for (int i = 0; i < 5; ++i)
-        bad[i] = mote_default_impact_options(s.length);
-    bad[0].length = 0;
-    bad[1].resolution = 0;
-    bad[2].resolution = NAN;
-    bad[3].pieces = 0;
-    bad[4].iterations = 0;
-    for (int i = 0; i < 5; ++i)
-        assert_int_equal(mote_impact_create(bodies, &bad[i], &made), MOTE_EINVAL);
+    static const struct {
+        mote_impact_options options; /* length, resolution, pieces, iterations */
+        const char *says;
+    } bad[] = {{{0, 1e-6, 1, 1, 0}, "a length of 0"},
+               {{INFINITY, 1e-6, 1, 1, 0}, "a length of inf"},
+               {{NAN, 1e-6, 1, 1, 0}, "a length of"},
+               {{1, 0, 1, 1, 0}, "a resolution of 0"},
+               {{1, NAN, 1, 1, 0}, "a resolution of"},
+               {{1, 1.5, 1, 1, 0}, "a resolution of 1.5"},
+               {{1, 1e-6, 0, 1, 0}, "0 pieces and 1 iterations"},
+               {{1, 1e-6, 1048577, 1, 0}, "1048577 pieces"},
+               {{1, 1e-6, 1, 0, 0}, "1 pieces and 0 iterations"}};
+    for (size_t i = 0; i < ROWS_OF(bad); ++i) {
+        test_row("%s", bad[i].says);
+        assert_int_equal(mote_impact_create(bodies, &bad[i].options, &made), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), bad[i].says));
+    }
     const mote_impact_options options = mote_default_impact_options(s.length);
     const mote_field_kind kind = {.name = "bent", .displacement = bend};
     const mote_field bent = {.kind = &kind, .count = 1, .padded = MOTE_LANES};
@@ -426,9 +439,15 @@ TEST(mote_impact_query_a_target_before_a_bone)
         assert_int_equal(mote_impact_query(search, &question, &found), MOTE_OK);
         check_found(&found, 0.5); /* 0.5 + 3 t = 2 */
         check_close(bones ? found.normal.y : found.normal.x, 1, 1e-9);
-        control[4 + 1] = 0.5; /* of the rotation's columns, behind the bone's four */
-        assert_int_equal(mote_impact_query(search, &question, &found), MOTE_EINVAL);
-        assert_true(strstr(mote_error_text(), "mote_morph_weights"));
+        /* of the rotation's columns, behind the bone's four; of the amount, in y */
+        const size_t wrong[] = {4 + 1, n + field->count - 1};
+        for (size_t i = 0; i < ROWS_OF(wrong); ++i) {
+            const double kept = control[wrong[i]];
+            control[wrong[i]] = 0.5;
+            assert_int_equal(mote_impact_query(search, &question, &found), MOTE_EINVAL);
+            assert_true(strstr(mote_error_text(), "mote_morph_weights"));
+            control[wrong[i]] = kept;
+        }
         mote_impact_destroy(search);
         s.of[0].piece[0].weights = NULL;
         mote_field_destroy(field);
@@ -457,4 +476,26 @@ TEST(mote_impact_query_does_not_allocate)
     assert_int_equal(mote_heap_read().allocations, before);
     assert_true(mote_impact_bytes(s.search) > 1000);
     impact_scene_free(&s);
+}
+
+/* What a search says that it holds is what the heap holds, of small bodies and of fine ones. */
+TEST(mote_impact_bytes_are_those_of_the_heap)
+{
+    static const uint32_t across[] = {9, 90};
+    for (size_t k = 0; k < ROWS_OF(across); ++k) {
+        impact_scene s;
+        impact_scene_init(&s, make_torus(across[k], 50, 1), make_torus(7, 5, 0.7), IMPACT_CSRBF,
+                          1);
+        assert_true((s.of[0].mesh->vertex_count > 4096) == (k == 1));
+        const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
+        const mote_impact_options options = mote_default_impact_options(s.length);
+        mote_impact_search *search = NULL;
+        const int64_t before = mote_heap_read().live_bytes;
+        assert_int_equal(mote_impact_create(bodies, &options, &search), MOTE_OK);
+        const double held = (double)(mote_heap_read().live_bytes - before);
+        if (mote_heap_read().counted) /* a sanitizer counts no heap */
+            check_close((double)mote_impact_bytes(search), held, 0.05 * held);
+        mote_impact_destroy(search);
+        impact_scene_free(&s);
+    }
 }

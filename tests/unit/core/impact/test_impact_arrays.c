@@ -1,6 +1,6 @@
 /* The time of impact of bodies of which only positions are known, every vertex going straight:
    closed forms, the roots of the cubics of two triangles, and what may not be asked. */
-#include "core/impact/impact.h"
+#include "core/impact/impact_state.h"
 
 #include "harness/base/heap_count.h"
 #include "tests/support/impact_scene.h"
@@ -401,11 +401,13 @@ TEST(mote_impact_query_bad_arrays_are_refused)
     const impact_kind mixed[2] = {IMPACT_RIGID, IMPACT_ARRAYS};
     impact_scene_init_kinds(&s, impact_box(1, 1, 1), impact_box(1, 1, 1), mixed, 1, 10);
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e19};
-    for (int i = 0; i < 4; ++i) {
-        s.of[1].frame[1][5].y = bad[i];
+    mote_vec3 *at = &s.of[1].frame[1][5];
+    double *const number[3] = {&at->x, &at->y, &at->z};
+    for (int i = 0; i < 12; ++i) {
+        *number[i / 4] = bad[i % 4];
         check_refused(&s, "body 1: in frame 1 of its path vertex 5 is at");
+        *number[i / 4] = 0;
     }
-    s.of[1].frame[1][5].y = 0;
     const mote_positions kept = s.of[1].positions[0];
     s.of[1].positions[0].data = NULL;
     check_refused(&s, "body 1 has no positions");
@@ -421,6 +423,86 @@ TEST(mote_impact_query_bad_arrays_are_refused)
     s.of[1].path.count = 1;
     s.of[0].path.positions = s.of[1].positions;
     check_refused(&s, "body 0 has a field");
+    impact_scene_free(&s);
+}
+
+/* Bodies of several blocks of leaves, that crumple as they move: no sample before the bracket
+   is in contact, and at its end all pairs of triangles are. */
+TEST(mote_impact_query_arrays_of_many_leaves_agree_with_samples)
+{
+    int impacts = 0;
+    for (int k = 0; k < 6; ++k) {
+        impact_scene s;
+        impact_scene_init_kinds(&s, make_torus(30, 12, 1), impact_box(1, 0.8, 0.3), arrays,
+                                (uint64_t)k, k % 2 ? 0 : 10);
+        assert_true(s.search->certificate->side[0].tree->block_count > 2);
+        const impact_wild w = {.pieces = 1 + (uint32_t)k % 3,
+                               .from = {3, 0.4 * k - 1, 0},
+                               .to = {-1, 0.3, 0.5},
+                               .stray = 0.3,
+                               .turn = 1,
+                               .weights = 0.02};
+        impact_wild still = w;
+        still.from = still.to = (mote_vec3){0, 0, 0};
+        impact_path_random(&s.of[0], &still, &s.random);
+        impact_path_random(&s.of[1], &w, &s.random);
+        const double tolerance = k % 2 ? 0.02 : 0;
+        const mote_impact_found found = ask(&s, tolerance);
+        for (int i = 0; i < 40; ++i)
+            assert_true(impact_distance(&s, i / 40.0 * found.from) > tolerance);
+        if (found.outcome == MOTE_IMPACT_FOUND) {
+            ++impacts;
+            check_close(impact_distance(&s, found.to), found.distance, 1e-12 * s.length);
+            assert_true(found.distance <= tolerance);
+        }
+        impact_scene_free(&s);
+    }
+    assert_true(impacts > 2);
+}
+
+/* The range of a frame's boxes along x: of the children of the root, in the world. */
+static void check_frame(const mote_lines_frame *frame, const mote_cert_tree *tree,
+                        const mote_vec3 *at)
+{
+    float low = HUGE_VALF, high = -HUGE_VALF;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (uint32_t l = 0; l < tree->blocks[0].children; ++l) {
+        low = fminf(low, frame->blocks[0].low[0][l]);
+        high = fmaxf(high, frame->blocks[0].high[0][l]);
+    }
+    for (uint32_t v = 0; v < tree->body->mesh->vertex_count; ++v) {
+        least = fmin(least, at[v].x);
+        most = fmax(most, at[v].x);
+    }
+    check_close(frame->middle.x + (double)low / tree->scale, least, 1e-6);
+    check_close(frame->middle.x + (double)high / tree->scale, most, 1e-6);
+}
+
+/* Whichever pieces were looked at before: each vertex is on its straight line, and the boxes
+   are those of both ends. */
+TEST(mote_lines_state_of_pieces_in_any_order)
+{
+    static const double times[] = {0.1, 0.5, 0.9, 0.4, 0.05, 0.95, 0.2, 0.6, 0.3, 1};
+    impact_scene s;
+    impact_scene_init_kinds(&s, make_torus(30, 12, 1), impact_box(1, 1, 1), arrays, 1, 10);
+    const impact_wild w = {.pieces = 3, .to = {4, 1, 0}, .turn = 1, .weights = 0.1};
+    impact_path_random(&s.of[0], &w, &s.random);
+    mote_lines *lines = s.search->lines[0];
+    mote_lines_begin(lines);
+    for (size_t i = 0; i < ROWS_OF(times); ++i) {
+        double weights[3 * MOTE_LANES];
+        mote_body_state state;
+        test_row("at %g", times[i]);
+        mote_lines_state(lines, &s.of[0].path, times[i], weights, &state);
+        impact_place(&s.of[0], times[i]);
+        for (uint32_t v = 0; v < s.of[0].mesh->vertex_count; ++v) {
+            const mote_vec3 p = mote_body_position(&s.search->body[0], &state, v);
+            assert_true(mote_length(mote_sub(p, s.of[0].world[v])) < 1e-14);
+        }
+        const int piece = times[i] < 1 ? (int)(3 * times[i]) : 2;
+        for (int k = 0; k < 2; ++k)
+            check_frame(&lines->frame[k], lines->tree, s.of[0].frame[piece + k]);
+    }
     impact_scene_free(&s);
 }
 

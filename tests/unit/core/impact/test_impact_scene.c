@@ -6,6 +6,8 @@
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
+#include <stdio.h>
+
 enum { BODIES = 9, SHAPES = 5 };
 
 typedef struct crowd {
@@ -217,6 +219,11 @@ TEST(mote_impact_scene_boxes_are_no_larger_than_they_must)
     assert_int_equal(c.shape_of[5], 0);
     assert_true(boxes[0].high.x <= radius + 1e-9); /* the ball of its only group */
     assert_true(boxes[5].high.x <= radius + 1e-9 && boxes[5].high.y >= 0.5);
+    const mote_scene_box skin = boxes[3]; /* without weights as with weights of 0 */
+    assert_int_equal(kinds[c.shape_of[3]], IMPACT_SKIN);
+    c.of[3].piece[0].weights = NULL;
+    need(mote_impact_scene_boxes(c.scene, c.paths, 0, 1, boxes) == MOTE_OK);
+    assert_memory_equal(&boxes[3], &skin, sizeof skin);
     crowd_free(&c);
 }
 
@@ -271,11 +278,22 @@ TEST(mote_impact_scene_refuses_with_reason)
     move_at_random(&c, 3, 1, 0.1, false);
     const mote_impact_scene_question good = question_of(&c, 0.01);
     mote_impact_scene_question q = good;
-    q.begin = 0.7, q.end = 0.2;
-    check_refused(&c, &q, "from 0.7 to 0.2");
+    static const double times[][2] = {{0.7, 0.2}, {-0.1, 1}, {0, 1.1}, {NAN, 1}, {0, NAN}};
+    for (size_t i = 0; i < ROWS_OF(times); ++i) {
+        q.begin = times[i][0], q.end = times[i][1];
+        check_refused(&c, &q, "impacts are looked for from");
+    }
+    static const double tolerances[] = {NAN, -1, INFINITY};
     q = good;
-    q.tolerance = NAN;
-    check_refused(&c, &q, "tolerance");
+    for (size_t i = 0; i < ROWS_OF(tolerances); ++i) {
+        q.tolerance = tolerances[i];
+        check_refused(&c, &q, "a tolerance of");
+    }
+    for (int i = 0; i < BODIES; ++i)
+        c.paths[i].count = 3;
+    check_refused(&c, &good, "body 0: its path has 3 pieces");
+    for (int i = 0; i < BODIES; ++i)
+        c.paths[i].count = 1;
     c.paths[4].count = 2;
     check_refused(&c, &good, "body 4: its path has 2 pieces");
     c.paths[4].count = 0;
@@ -293,6 +311,21 @@ TEST(mote_impact_scene_refuses_with_reason)
     c.paths[2].positions = c.of[1].positions;
     check_refused(&c, &good, "body 2: its path is to be one of pieces");
     c.paths[2].positions = NULL;
+    /* weights: of a skin (body 3) and of functions (body 4) */
+    for (int i = 3; i <= 4; ++i) {
+        char says[40];
+        assert_int_equal(kinds[c.shape_of[i]], i == 3 ? IMPACT_SKIN : IMPACT_CSRBF);
+        c.of[i].control[0][4] = NAN;
+        (void)snprintf(says, sizeof says, "body %d: a number in piece 0", i);
+        check_refused(&c, &good, says);
+        c.of[i].control[0][4] = 0;
+    }
+    /* what only the pairs' searches see; the first pair that does says so */
+    q = good;
+    q.tolerance = 100; /* all are near */
+    for (int i = 0; i < 4; ++i)
+        c.of[8].piece[0].turn[i] = (mote_quaternion){i % 2 ? -1 : 1, 0, 0, 0};
+    check_refused(&c, &q, "8: the quaternions of piece 0 of body");
     assert_int_equal(
         mote_impact_scene_pair(c.scene, c.paths, (const uint32_t[]){3, 3}, 0, 1, 0, &found),
         MOTE_EINVAL);
@@ -306,6 +339,94 @@ TEST(mote_impact_scene_refuses_with_reason)
     assert_null(none);
     assert_true(mote_impact_scene_bytes(c.scene) > 1000);
     crowd_free(&c);
+}
+
+/* The boxes of one shape, along x at these places; each moves by `step`. */
+static void put_boxes(impact_body *of, mote_path *paths, uint32_t count, const double (*at)[3],
+                      mote_vec3 step)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        const mote_vec3 from = mote_vec3_make(at[i][0], at[i][1], at[i][2]);
+        mote_path_line(from, mote_add(from, step), of[i].piece[0].centre);
+        paths[i] = of[i].path;
+    }
+}
+
+enum { MANY = 12 };
+
+typedef struct boxes {
+    impact_body of[MANY];
+    mote_path paths[MANY];
+    mote_impact_scene *scene;
+} boxes;
+
+static void boxes_init(boxes *b)
+{
+    static const uint32_t shape_of[MANY] = {0};
+    mote_random random = {1};
+    for (int i = 0; i < MANY; ++i)
+        impact_body_init(&b->of[i], impact_box(1, 1, 1), IMPACT_RIGID, &random);
+    const mote_body *const shapes[1] = {&b->of[0].body};
+    const mote_impact_options options = mote_default_impact_options(1);
+    need(mote_impact_scene_create(shapes, 1, shape_of, MANY, &options, &b->scene) == MOTE_OK);
+}
+
+static void boxes_free(boxes *b)
+{
+    mote_impact_scene_destroy(b->scene);
+    for (int i = 0; i < MANY; ++i)
+        impact_body_free(&b->of[i]);
+}
+
+static mote_impact_scene_found ask_boxes(boxes *b)
+{
+    const mote_impact_scene_question q = {.paths = b->paths, .end = 1};
+    mote_impact_scene_found found;
+    if (mote_impact_scene_query(b->scene, &q, &found) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return found;
+}
+
+/* Of impacts that begin at once the lowest bodies are told, in whatever order the pairs are
+   come to, and whatever was asked before; more pairs are near than there was room for. */
+TEST(mote_impact_scene_query_of_impacts_at_once_tells_the_lowest)
+{
+    boxes b;
+    double at[MANY][3];
+    boxes_init(&b);
+    for (int k = 0; k < 4; ++k) {
+        test_row("order %d", k);
+        for (int i = 0; i < MANY; ++i) { /* pairs of boxes that touch, all pairs apart */
+            const int pair = k % 2 ? MANY / 2 - 1 - i / 2 : i / 2;
+            at[i][0] = 3 * pair + i % 2;
+            at[i][1] = at[i][2] = 0;
+        }
+        put_boxes(b.of, b.paths, MANY, (const double(*)[3])at, mote_vec3_make(0.5, 0, 0));
+        const mote_impact_scene_found found = ask_boxes(&b);
+        assert_int_equal(found.impact.outcome, MOTE_IMPACT_FOUND);
+        assert_true(!(found.impact.to > 0));
+        assert_int_equal(found.body[0], 0);
+        assert_int_equal(found.body[1], 1);
+        assert_in_range(found.near_pairs, MANY / 2, MANY);
+        for (int i = 0; i < MANY; ++i) /* one beside the other in y, at the same x, apart */
+            at[i][0] = 0, at[i][1] = 1.1 * (k % 2 ? i : MANY - i);
+        put_boxes(b.of, b.paths, MANY, (const double(*)[3])at, mote_vec3_make(0, 50, 0));
+        const mote_impact_scene_found none = ask_boxes(&b);
+        assert_int_equal(none.impact.outcome, MOTE_IMPACT_NONE);
+        assert_int_equal(none.near_pairs, MANY * (MANY - 1) / 2);
+        for (int i = 0; i < MANY; ++i) /* the same in z; nothing comes near */
+            at[i][1] = 0, at[i][2] = 3.0 * (k % 2 ? i : MANY - i);
+        put_boxes(b.of, b.paths, MANY, (const double(*)[3])at, mote_vec3_make(0, 0, 0));
+        assert_int_equal(ask_boxes(&b).near_pairs, 0);
+        memset(at, 0, sizeof at); /* all in one place */
+        put_boxes(b.of, b.paths, MANY, (const double(*)[3])at, mote_vec3_make(0, 0, 0));
+        const mote_impact_scene_found all = ask_boxes(&b);
+        assert_int_equal(all.near_pairs, MANY * (MANY - 1) / 2);
+        assert_int_equal(all.impact.outcome, MOTE_IMPACT_FOUND);
+        assert_int_equal(all.body[0], 0);
+        assert_int_equal(all.body[1], 1);
+    }
+    boxes_free(&b);
 }
 
 /* A scene of one body has a box and no impact. */

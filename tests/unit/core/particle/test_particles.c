@@ -530,3 +530,18 @@ TEST(query_with_given_positions_evaluates_none)
     mote_particles_destroy(given);
     scene_close(&s);
 }
+
+TEST(create_without_particles_says_the_range)
+{
+    particle_scene s;
+    scene_open(&s, solid_icosphere(1), solid_icosphere(0), 0, 1);
+    mote_particles_options options = mote_default_particles_options();
+    options.count = 0;
+    mote_particles *particles = NULL;
+    assert_int_equal(mote_particles_create(s.bodies, s.length, &options, &particles),
+                     MOTE_EINVAL);
+    assert_string_equal(mote_error_text(),
+                        "n=0 is not valid; body 0 has 42 vertices, so n must be from 1 to 42");
+    assert_null(particles);
+    scene_close(&s);
+}

@@ -11,13 +11,19 @@
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
 
-static mote_certificate *certificate_of(const scene *s)
+static mote_certificate *certificate_by(const scene *s, bool linear_fits)
 {
     const mote_body *const bodies[2] = {&s->body[0], &s->body[1]};
-    const mote_certificate_options plain = mote_default_certificate_options(s->length);
+    mote_certificate_options options = mote_default_certificate_options(s->length);
     mote_certificate *c = NULL;
-    assert_int_equal(mote_certificate_create(bodies, &plain, &c), MOTE_OK);
+    options.linear_fits = linear_fits;
+    assert_int_equal(mote_certificate_create(bodies, &options, &c), MOTE_OK);
     return c;
+}
+
+static mote_certificate *certificate_of(const scene *s)
+{
+    return certificate_by(s, true);
 }
 
 /* Bones, bones a vertex, targets. */
@@ -119,33 +125,99 @@ static int check_node(scene *s, mote_certificate *c, int b, mote_cert_node *node
     return boxes;
 }
 
+/* Checks all boxes of body b along a random direction; returns how many there are. */
+static int check_body(scene *s, mote_certificate *c, int b, int *narrowed)
+{
+    const mote_mat3 r = random_rotation(s);
+    ++c->generation;
+    mote_lazy_begin(&c->side[b].lazy, &s->frame.body[b], false);
+    mote_cert_side_begin(&c->side[b], &s->frame.body[b], c->origin);
+    mote_cert_side_face(&c->side[b], mote_vec3_make(r.m[0][0], r.m[0][1], r.m[0][2]), 0);
+    return check_node(s, c, b, mote_cert_root(c, b), narrowed);
+}
+
+static void check_plan(skin_plan plan, bool linear_fits, int *boxes, int *narrowed)
+{
+    skinned k;
+    skinned_init(&k, 60, 24, plan);
+    mote_certificate *c = certificate_by(&k.s, linear_fits);
+    for (int frame = 0; frame < 16; ++frame) {
+        next_pose(&k, wildness[frame % 4], 2);
+        /* from nearby to so far that a float keeps three digits of the size */
+        c->origin = mote_vec3_make(pow(10, frame % 5), 0, 0);
+        for (int b = 0; b < 2; ++b)
+            *boxes += check_body(&k.s, c, b, narrowed);
+    }
+    mote_certificate_destroy(c);
+    skinned_free(&k);
+}
+
 TEST(boxes_and_hulls_enclose_their_vertices)
 {
     int boxes = 0, narrowed = 0;
     static const skin_plan few[] = {{4, 1, 0}, {12, 3, 0}, {20, 5, 0}, {0, 0, 7}, {16, 4, 9}};
-    for (size_t i = 0; i < ROWS_OF(few); ++i) {
-        skinned k;
-        skinned_init(&k, 60, 24, few[i]);
-        mote_certificate *c = certificate_of(&k.s);
-        for (int frame = 0; frame < 16; ++frame) {
-            next_pose(&k, wildness[frame % 4], 2);
-            /* from nearby to so far that a float keeps three digits of the size */
-            c->origin = mote_vec3_make(pow(10, frame % 5), 0, 0);
-            ++c->generation;
-            for (int b = 0; b < 2; ++b) {
-                const mote_mat3 r = random_rotation(&k.s);
-                mote_lazy_begin(&c->side[b].lazy, &k.s.frame.body[b], false);
-                mote_cert_side_begin(&c->side[b], &k.s.frame.body[b], c->origin);
-                mote_cert_side_face(&c->side[b],
-                                    mote_vec3_make(r.m[0][0], r.m[0][1], r.m[0][2]), 0);
-                boxes += check_node(&k.s, c, b, mote_cert_root(c, b), &narrowed);
-            }
-        }
-        mote_certificate_destroy(c);
-        skinned_free(&k);
-    }
+    for (size_t i = 0; i < ROWS_OF(few); ++i)
+        check_plan(few[i], true, &boxes, &narrowed);
     assert_true(boxes > 10000);
     assert_true(narrowed > 1000);
+    check_plan(few[4], false, &boxes, &narrowed);
+}
+
+/* Vertices near the middle of a bar of separate triangles, and one at each end. */
+static mote_mesh *make_bar(void)
+{
+    enum { TRIANGLES = 13, POINTS = 3 * TRIANGLES };
+    double xyz[POINTS][3];
+    uint32_t faces[TRIANGLES][3];
+    for (uint32_t v = 0; v < POINTS; ++v) {
+        const bool end = v == 0 || v == POINTS - 1;
+        xyz[v][0] = (v < POINTS / 2 ? -1 : 1) * (end ? 1 : 0.232);
+        xyz[v][1] = end ? 0 : 0.1 * cos(2.0 * v);
+        xyz[v][2] = end ? 0 : 0.05 * sin(2.0 * v);
+        faces[v / 3][v % 3] = v;
+    }
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(xyz[0], POINTS, faces[0], TRIANGLES, &mesh), MOTE_OK);
+    return mesh;
+}
+
+/* A target that moves the left and the right of the middle apart, and the ends not at all, is
+   steeper than slopes are kept. */
+TEST(boxes_enclose_what_steep_targets_move)
+{
+    scene s;
+    scene_init_meshes(&s, make_bar(), make_torus(9, 6, 1), false);
+    const uint32_t n = s.mesh[0]->vertex_count;
+    uint32_t start[2] = {0, n}, vertex[64];
+    mote_vec3 move[64];
+    assert_true(n <= ROWS_OF(vertex));
+    for (uint32_t v = 0; v < n; ++v) {
+        vertex[v] = v;
+        move[v] = mote_vec3_make(0, v == 0 || v == n - 1 ? 0 : v < n / 2 ? -1.99 : 1.99, 0);
+    }
+    const mote_morph_targets targets = {1, start, vertex, move};
+    mote_deform_destroy(s.deform[0]);
+    mote_field_destroy(s.field[0]);
+    assert_int_equal(
+        mote_field_create_morphs(s.mesh[0], 0, NULL, NULL, NULL, &targets, &s.field[0]),
+        MOTE_OK);
+    s.body[0].field = s.field[0];
+    assert_int_equal(mote_deform_create(&s.body[0], &s.deform[0]), MOTE_OK);
+    mote_certificate *c = certificate_of(&s);
+    int narrowed = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+        scene_next(&s, 1.5, false);
+        const double amount = scene_random(&s, -1, 1);
+        mote_morph_weights(s.field[0], NULL, &amount, &s.frame.body[0].pose.rotation,
+                           s.weights[0][0], s.weights[0][1], s.weights[0][2]);
+        mote_deform_all(s.deform[0], &s.frame.body[0], s.world[0]);
+        assert_true(check_body(&s, c, 0, &narrowed) > 0);
+        mote_certificate_answer a;
+        mote_certificate_query(c, &s.frame, NULL, -1, &a);
+        assert_true(fabs(a.distance - scene_distance(&s)) <= 1e-12 * s.length);
+    }
+    mote_certificate_destroy(c);
+    scene_free(&s);
 }
 
 /* The morphed position of a vertex, from the original displacements. */

@@ -4,6 +4,8 @@
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
+#include <float.h>
+
 static void expect_error(const mote_mesh *mesh, uint32_t bones, const uint32_t *start,
                          const uint16_t *bone, const double *weight, const char *text)
 {
@@ -37,6 +39,13 @@ TEST(create_skin_with_bad_input_says_what)
     expect_error(mesh, 2, start, bone, weight,
                  "the weights of vertex 2 add up to 0; their sum must be positive and finite");
     weight[2] = 1;
+    start[1] = 2;
+    weight[0] = weight[1] = 1e308;
+    expect_error(mesh, 2, start, bone, weight,
+                 "the weights of vertex 0 add up to inf; their sum must be positive and "
+                 "finite");
+    weight[0] = weight[1] = 1;
+    start[1] = 1;
     start[4] = 3;
     expect_error(mesh, 2, start, bone, weight, "vertex 3 has no bone; it needs at least one");
     start[4] = 4;
@@ -97,12 +106,22 @@ static const bad_targets bad[] = {
      {0, 9, 0},
      {{0, 0, 0}},
      "morph target 1 moves vertex 9 of 9, counted from 0"},
+    {2,
+     {0, 1, 2},
+     {10, 0, 0},
+     {{0, 0, 0}},
+     "morph target 0 moves vertex 10 of 9, counted from 0"},
     {1, {0, 2, 0}, {3, 3, 0}, {{0, 0, 0}}, "morph target 0 names vertex 3 twice"},
     {1,
      {0, 1, 0},
      {5, 0, 0},
      {{0, HUGE_VAL, 0}},
      "morph target 0 moves vertex 5 by (0, inf, 0); it must be finite"},
+    {1,
+     {0, 1, 0},
+     {5, 0, 0},
+     {{0, 0, -HUGE_VAL}},
+     "morph target 0 moves vertex 5 by (0, 0, -inf); it must be finite"},
 };
 
 TEST(create_morphs_with_bad_input_says_what)
@@ -181,4 +200,34 @@ TEST(tree_of_another_mesh_is_refused)
     mote_mesh_destroy(own);
     mote_mesh_destroy(other);
     mote_mesh_destroy(more);
+}
+
+/* The largest displacements there are, and weights of bones alone, which move no target. */
+TEST(targets_of_any_finite_size_are_kept)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    static const uint32_t start[2] = {0, 1}, vertex[1] = {2};
+    static const mote_vec3 move[1] = {{DBL_MAX, -DBL_MAX, 0.75 * DBL_MAX}};
+    const mote_morph_targets targets = {1, start, vertex, move};
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const mote_skin *skin = mote_field_skin(field);
+    const mote_morph *morph = &skin->morph;
+    for (int k = 0; k < 3; ++k) {
+        const double wanted = k == 0 ? move[0].x : k == 1 ? move[0].y : move[0].z;
+        assert_true(fabs((double)morph->move[0][k] - wanted / morph->size[0]) < 1e-6);
+    }
+    const mote_mat3 turn = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+    double x[16], y[16], z[16];
+    assert_true(field->padded <= ROWS_OF(x));
+    mote_skin_weights(field, NULL, &turn, x, y, z);
+    for (uint32_t j = 0; j < field->count; ++j) {
+        const bool column = j >= 4 && j < 7; /* those of the rotation */
+        assert_true(x[j] == (column ? turn.m[0][j - 4] : 0));
+        assert_true(y[j] == (column ? turn.m[1][j - 4] : 0));
+        assert_true(z[j] == (column ? turn.m[2][j - 4] : 0));
+    }
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
 }

@@ -140,26 +140,6 @@ TEST(query_separate_triangles_equals_all_pairs)
     }
 }
 
-/* Copies vertices into another layout: `stride` numbers apart, the rest filled with NaN. The
-   array ends with the last vertex. */
-static void *spread_out(const mote_vec3 *from, uint32_t count, size_t stride, bool single)
-{
-    const size_t size = single ? sizeof(float) : sizeof(double);
-    const size_t numbers = (count - 1) * stride + 3;
-    char *made = malloc(numbers * size);
-    need(made);
-    for (size_t i = 0; i < numbers; ++i) {
-        const mote_vec3 p = from[i / stride];
-        const double part[3] = {p.x, p.y, p.z};
-        const double x = i % stride < 3 ? part[i % stride] : (double)NAN;
-        if (single)
-            ((float *)(void *)made)[i] = (float)x;
-        else
-            ((double *)(void *)made)[i] = x;
-    }
-    return made;
-}
-
 /* Every layout gives the same answers as the same numbers in an array of vectors, and nothing
    after the last vertex is read (under AddressSanitizer). */
 TEST(query_any_layout_gives_the_same_bits)

@@ -147,6 +147,30 @@ TEST(query_any_number_of_threads_gives_the_same_bits_and_never_allocates)
     placed_free(&p);
 }
 
+TEST(bytes_are_those_of_the_heap)
+{
+    static placed p;
+    placed_init(&p, 9, 700, 3);
+    for (uint32_t threads = 1; threads <= 3; threads += 2) {
+        mote_scene_options options = mote_default_scene_options();
+        options.threads = threads;
+        const int64_t before = mote_heap_read().live_bytes;
+        mote_stream_scene *scene = scene_of(&p, &options);
+        mote_scene_box boxes[CROWD_MAX];
+        uint32_t pairs[CROWD_MAX * CROWD_MAX][2];
+        const size_t count = crowd_pairs(&p.c, pairs), made = mote_stream_scene_bytes(scene);
+        assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+        assert_int_equal(mote_stream_scene_query(scene, (const uint32_t(*)[2])pairs, count),
+                         MOTE_OK);
+        assert_true(mote_stream_scene_bytes(scene) >= made + count * sizeof(mote_scene_pair));
+        const double held = (double)(mote_heap_read().live_bytes - before);
+        if (mote_heap_read().counted) /* a sanitizer counts no heap */
+            assert_close((double)mote_stream_scene_bytes(scene), held, 0.05 * held);
+        mote_stream_scene_destroy(scene);
+    }
+    placed_free(&p);
+}
+
 TEST(bounds_and_query_bad_input_is_refused)
 {
     static placed p;
@@ -157,6 +181,14 @@ TEST(bounds_and_query_bad_input_is_refused)
     const uint32_t pairs[1][2] = {{1, 4}}, wrong[1][2] = {{4, 1}};
     assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "call mote_stream_scene_bounds"));
+    const mote_positions good = p.positions[3];
+    p.positions[3].stride = 20;
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "body 3 has a stride of 20 bytes"));
+    p.positions[3].data = NULL;
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "body 3 has no positions"));
+    p.positions[3] = good;
     const mote_vec3 kept = p.world[4][7];
     p.world[4][7].z = NAN;
     assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_EINVAL);
@@ -169,6 +201,14 @@ TEST(bounds_and_query_bad_input_is_refused)
     assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
     assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "bodies 1 and 4"));
+    for (uint32_t v = 0; v < p.c.shape[p.c.shape_of[4]]->mesh->vertex_count; ++v)
+        p.world[4][v].z = 1e200; /* its square is no number */
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+    assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "bodies 1 and 4"));
+    place(&p);
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+    assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_OK);
     mote_stream_scene_destroy(scene);
     mote_stream_scene *none = NULL;
     const uint32_t bad_shape[1] = {9};

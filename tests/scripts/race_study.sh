@@ -1,0 +1,34 @@
+#!/bin/sh
+# race_study.sh RACE_STUDY RECORD WORK: make perf-study finds the races that it has stored, and counts them in its
+# table; RECORD/power.md is the table of RECORD/races.csv. What is raced here answers at once.
+set -eu
+study=$1 record=$2 work=$3
+fail() { echo "race_study: $*" >&2; exit 1; }
+rm -rf "$work"
+mkdir -p "$work/programs"
+cat >"$work/programs/00" <<'RACER'
+#!/bin/sh
+times=20000
+for _ in $(seq 199); do times=$times,20000; done
+printf 'mote-race\t1\n'
+while read -r request _ _ last _; do
+    case $request in
+    cell) printf 'ok\t0\t1\t%s\n' "$last" ;;
+    *) printf 'ok\t1\t-\t%s\n' "$times" ;;
+    esac
+done
+RACER
+chmod +x "$work/programs/00"
+"$study" run "$work/programs" "$work" 1 0 >"$work/said" || fail "status $?: $(cat "$work/said")"
+line='(idle|compiler|busy),none,0,1,0,0,2,0,0,1\.00000,1\.00000,1\.00000,[0-9]+,[0-9.]+,[0-9.]+'
+[ "$(grep -cxE "$line" "$work/races.csv")" = 2 ] || fail "two lines are expected in $(cat "$work/races.csv")"
+
+# Beside other tests the machine may have been busy, and then the race would be repeated.
+sed -i '2s/^[a-z]*/idle/; 3s/^[a-z]*/compiler/' "$work/races.csv"
+[ -z "$("$study" run "$work/programs" "$work" 1 0)" ] || fail "a race that has its line was raced again"
+"$study" table "$work/races.csv" "$work/power" >"$work/power.md"
+for place in idle 'beside a compiler'; do
+    grep -qF "| unchanged, $place | 1 | 0 of 1 (0 to " "$work/power.md" || fail "$place: $(cat "$work/power.md")"
+done
+
+"$study" table "$record/races.csv" "$work/power" | cmp - "$record/power.md"

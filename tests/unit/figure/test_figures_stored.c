@@ -1,0 +1,231 @@
+/* The data of figures of runs that the test writes itself, with frames without an answer,
+   methods that fail, and rows that lack something; gnuplot is a stand-in. */
+#include "harness/base/memory.h"
+#include "harness/base/record.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
+#include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define GNUPLOT "#!/bin/sh\nfor f in $8; do echo drawn > \"$5.$f\"; done\n"
+
+static int put_gnuplot(void)
+{
+    char path[256], here[200];
+    if (folder_next() != 0 || !getcwd(here, sizeof here))
+        return -1;
+    file_put("bin/gnuplot", GNUPLOT);
+    (void)snprintf(path, sizeof path, "%s/bin:/usr/bin:/bin", here);
+    return chmod("bin/gnuplot", 0755) || setenv("PATH", path, 1);
+}
+
+TEST_EACH(put_gnuplot, NULL);
+
+/* Four frames that each take NS: exact, inexact and without an answer in one frame, in contact
+   all the time, without any answer. */
+#define EXACT                                                                                  \
+    "1,1,2,%d,0.5,0,0,0,7\n2,1,2,%d,0.25,0,0,0,7\n3,1,2,%d,0,0,1,1,7\n4,1,2,%d,0,0,1,1,7\n"
+#define WRONG                                                                                  \
+    "1,1,2,%d,0.5,0.1,0,0,7\n2,1,2,%d,0.25,,,0,7\n3,1,2,%d,0,0.1,0,1,7\n4,1,2,%d,0,0,1,1,7\n"
+#define TOUCH                                                                                  \
+    "1,1,2,%d,0,0,1,1,7\n2,1,2,%d,0,0.2,0,1,7\n3,1,2,%d,0,0,1,1,7\n4,1,2,%d,0,0,1,1,7\n"
+#define APART                                                                                  \
+    "1,1,2,%d,0.5,0,0,0,7\n2,1,2,%d,0.4,0,0,0,7\n3,1,2,%d,0.3,0,0,0,7\n4,1,2,%d,0.2,0,0,0,7\n"
+#define SILENT "1,1,2,%d,0.5,,,0,7\n2,1,2,%d,0.25,,,0,7\n3,1,2,%d,0,,,1,7\n4,1,2,%d,0,,,1,7\n"
+
+/* Writes two replicates; each frame takes ns in the first, and a little longer then. */
+static void put(const char *scenario, const char *method, const char *parameters, int ns,
+                const char *form)
+{
+    static int number;
+    for (int replicate = 1; replicate <= 2; ++replicate) {
+        char id[24], rows[256];
+        const int t = ns + replicate;
+        (void)snprintf(id, sizeof id, "c%d", ++number);
+        /* The form has four numbers. */
+        char *at = rows;
+        for (const char *c = form; *c; ++c) {
+            if (c[0] == '%' && c[1] == 'd') {
+                at += sprintf(at, "%d", t);
+                ++c;
+            } else {
+                *at++ = *c;
+            }
+        }
+        *at = '\0';
+        stored_cell_put("run", (stored_cell){.id = id,
+                                             .method = method,
+                                             .scenario = scenario,
+                                             .parameters = parameters,
+                                             .replicate = replicate,
+                                             .rows = rows});
+    }
+}
+
+static const char *const ingredients[] = {
+    "{\"n\": 8}", "{\"n\": 8, \"refine\": 1}", "{\"n\": 8, \"launch\": 8}",
+    "{\"n\": 0}", "{\"n\": 8, \"track\": 16}", "{\"n\": 8, \"start\": \"random\"}",
+    "{\"n\": 2}", "{\"n\": 8, \"track\": 0}",
+};
+
+static void put_ingredients(const char *scenario, const char *form)
+{
+    for (int k = 0; k < (int)ROWS_OF(ingredients); ++k)
+        put(scenario, "particle", ingredients[k], 100 * (k + 1), form);
+}
+
+/* The caption of a figure; the caller frees it. */
+static char *caption_of(const char *figure)
+{
+    json_t *list = NULL;
+    char *caption = NULL;
+    assert_int_equal(mote_record_read_json("run/figures", "figures.json", &list), MOTE_OK);
+    const json_t *one;
+    size_t i;
+    MOTE_EACH(i, one, json_object_get(list, "figures"))
+    {
+        if (strcmp(mote_text_at(one, "name"), figure) == 0)
+            caption = mote_duplicate(mote_text_at(one, "caption"));
+    }
+    json_decref(list);
+    if (!caption)
+        fail_msg("no figure %s", figure);
+    return caption;
+}
+
+static void expect_in(const char *text, const char *const *parts, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (!strstr(text, parts[i]))
+            fail_msg("no \"%s\" in:\n%.3000s", parts[i], text);
+    }
+}
+
+TEST(ingredients_that_fail_are_named_in_the_caption)
+{
+    static const char *const lines[] = {"\"jump\"\n0 100 50 1 ", "\"ww-1m\"\n0 25 25 1 ",
+                                        "\"comb\"\n0 0 0 1 ", "\"ww\"\n0 0 NaN 1 "};
+    static const char *const failures[] = {
+        " It fails on jump (100 % not exact, 1 of 2 contacts missed), ww-1m (25 % not exact, 1 "
+        "of 4 contacts missed): the search is local"};
+    put_ingredients("jump", WRONG);
+    put_ingredients("comb", EXACT);
+    put_ingredients("ww", APART);
+    put_ingredients("ww-1m", TOUCH);
+    put("comb", "particle", "{\"n\": 8, \"leap\": \"off\"}", 50, SILENT);
+    mote_expect(0, "figures/ingredients.svg", "figures run");
+    char *data = file_text("run/figures/ingredients.dat"), *caption = caption_of("ingredients");
+    expect_in(data, lines, ROWS_OF(lines));
+    expect_in(caption, failures, ROWS_OF(failures));
+    /* What has no error has no line. */
+    const char *comb = strstr(data, "\"comb\"\n");
+    assert_null(strstr(comb, "\n1 "));
+    free(data);
+    free(caption);
+}
+
+TEST(ingredients_that_succeed_have_no_failures)
+{
+    put_ingredients("comb", EXACT);
+    mote_expect(0, "figures/tracked-comb.svg", "figures run");
+    char *caption = caption_of("ingredients");
+    assert_null(strstr(caption, "It fails on"));
+    free(caption);
+    char *data = file_text("run/figures/tracked-comb.dat");
+    static const char *const series[] = {"\"n\"\n", "\"launch\"\n", "\"track\"\n"};
+    expect_in(data, series, ROWS_OF(series));
+    free(data);
+}
+
+/* Errors over n: a frame without an answer has no part, and a share of missed contacts is one
+   of the frames in contact. */
+TEST(errors_over_n_leave_out_what_was_not_answered)
+{
+    put("s", "particle-paper", "{\"n\": 1}", 100, WRONG);
+    put("s", "particle-paper", "{\"n\": 2}", 200, APART);
+    put("s", "particle-paper", "{\"n\": 3}", 300, TOUCH);
+    put("s", "particle-paper", "{\"n\": 4}", 300, SILENT);
+    put("s", "fcl-aabb", "{}", 1000, EXACT);
+    mote_expect(0, "figures/errors-s.svg", "figures run");
+    char *data = file_text("run/figures/errors-s.dat");
+    static const char *const lines[] = {
+        "\n1 0.1", " 0.5 0.5 0.5\n2 0 0 0 0 0 0 0 0 0 nan nan nan\n3 0 0 0 ",
+        " 0.25 0.25 0.25\n"};
+    expect_in(data, lines, ROWS_OF(lines));
+    assert_null(strstr(data, "\n4 "));
+    free(data);
+}
+
+#define FILM                                                                                   \
+    "{\"purpose\": \"letters that meet\", \"frames\": 11, \"ask\": \"distance\", "             \
+    "\"tolerance\": 0.01, \"bodies\": {\"count\": 4, \"seed\": 3, \"box\": 4, \"near\": 0.2, " \
+    "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}, {\"letter\": \"L\", "               \
+    "\"triangles\": 400}]}}\n"
+
+/* The pictures of the film in several/film, after its pairs have been replaced by these lines:
+   a number and a hash for each; the caller frees them. */
+static char *pictures_of(const char *lines)
+{
+    static const char rename[] = "cd several/film/cells && head -1 *.pairs.csv > kept && "
+                                 "cat kept lines > $(ls *.pairs.csv) && rm kept lines";
+    file_put("several/film/cells/lines", lines);
+    assert_int_equal(system(rename), 0);
+    mote_expect(0, "figures/letters.gif", "figures several");
+    return file_text("several/figures/letters.dat");
+}
+
+/* Which of two texts' lines differ, as "01011". */
+static void compare_lines(const char *a, const char *b, char *differ)
+{
+    for (; *a && *b; ++differ) {
+        const size_t first = strcspn(a, "\n"), second = strcspn(b, "\n");
+        *differ = first == second && strncmp(a, b, first) == 0 ? '0' : '1';
+        a += first + (a[first] == '\n');
+        b += second + (b[second] == '\n');
+    }
+    *differ = '\0';
+}
+
+/* A film shows every fifth frame, and bodies in contact in another colour. */
+TEST(film_of_letters_marks_contacts)
+{
+    static const struct {
+        const char *lines, *differ; /* from the film without contacts */
+    } rows[] = {
+        {"1,1,2,1,0,0,1,0,0,0,0,0,0,0,0,0,0\n", "100"},
+        {"2,1,2,1,0,0,1,0,0,0,0,0,0,0,0,0,0\n6,1,4,1,0,0,1,0,0,0,0,0,0,0,0,0,0\n", "010"},
+        {"6,1,4,1,0,0,0,0,0,0,0,0,0,0,0,0,0\n", "000"},  /* near, but no contact */
+        {"11,3,9,1,0,0,1,0,0,0,0,0,0,0,0,0,0\n", "001"}, /* there is no body 9 */
+        {"11,8,9,1,0,0,1,0,0,0,0,0,0,0,0,0,0\n", "000"},
+    };
+    file_put("several/film/letters.json", FILM);
+    mote_expect(
+        0, "letters",
+        "run several/film/letters.json --method certified --replicates 1 --pairs contacts "
+        "--out several/film");
+    put("s", "fcl-aabb", "{}", 1000, EXACT);
+    assert_int_equal(system("mv run/cells several/cells"), 0);
+    char *none = pictures_of("");
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char differ[64];
+        test_row("%s", rows[i].lines);
+        char *pictures = pictures_of(rows[i].lines);
+        compare_lines(none, pictures, differ);
+        assert_string_equal(differ, rows[i].differ);
+        free(pictures);
+    }
+    free(none);
+    file_put("several/film/letters.json",
+             "{\"purpose\": \"others\", \"like\": \"letters\", \"frames\": 11}\n");
+    mote_expect(0, "other frames than those measured", "figures several");
+    file_put("several/film/letters.json", FILM);
+    /* A second method: which film is it? */
+    mote_expect(
+        0, "letters",
+        "run several/film/letters.json --method stream --replicates 1 --out several/film");
+    mote_expect(0, "several/film: not the run of one film", "figures several");
+}
