@@ -36,7 +36,8 @@
 #   make perf-check                                 measure again, compare with results/reference
 #   make perf-counts                                the same without times: counts, bytes, accuracy
 #   make perf-ab [BASE=REVISION]                    two revisions side by side: is this one slower?
-#   make perf-study [RACES=200] [PLANTED=40] [OUT=]  how often perf-ab's verdicts are wrong; hours
+#   make perf-study [RACES=200] [PLANTED=40] [OUT=]  how often perf-ab's verdicts are wrong; hours;
+#                                                   ONLY="idle:2": slowdowns of 2 % on an idle machine
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-kill                                  200 random kill -9 of a sweep: is a cell lost?
 #   make test-statistics                            what intervals cover on simulated runs
@@ -303,7 +304,7 @@ RACES ?= 200
 PLANTED ?= 40
 perf-study: program-race_study program-race_planted
 	@harness/scripts/perf_study.sh $(BUILD) $(call out,perf-study) $(RACES) $(PLANTED) \
-	    $(if $(RECORD),record)
+	    $(call quoted,$(ONLY)) $(if $(RECORD),record)
 
 test-perf: program-perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf

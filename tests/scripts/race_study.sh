@@ -23,6 +23,11 @@ chmod +x "$work/programs/00"
 line='(idle|compiler|busy),none,0,1,0,0,2,0,0,1\.00000,1\.00000,1\.00000,[0-9]+,[0-9.]+,[0-9.]+'
 [ "$(grep -cxE "$line" "$work/races.csv")" = 2 ] || fail "two lines are expected in $(cat "$work/races.csv")"
 
+"$study" run "$work/programs" "$work" 2 1 'idle:4' 2>"$work/said" && fail 'ONLY=idle:4 is not refused'
+grep -q '^mote: ONLY="idle:4": .*such as "idle:2 compiler:5"' "$work/said" || fail "$(cat "$work/said")"
+"$study" run "$work/programs" "$work/only" 0 1 'compiler:5' >"$work/said" || fail "status $?: $(cat "$work/said")"
+[ "$(cut -d , -f 2-4 "$work/only/races.csv")" = "$(printf '%s\n' plant,per_cent,number 'certified query,5,1' 'particle sweep,5,1' 'clock path,5,1')" ] || fail "ONLY=compiler:5: $(cat "$work/only/races.csv")"
+
 # Beside other tests the machine may have been busy, and then the race would be repeated.
 sed -i '2s/^[a-z]*/idle/; 3s/^[a-z]*/compiler/' "$work/races.csv"
 [ -z "$("$study" run "$work/programs" "$work" 1 0)" ] || fail "a race that has its line was raced again"

@@ -1,11 +1,12 @@
 /* make perf-study: how often the verdicts of a race are wrong, and how long races take.
 
-   race_study run PROGRAMS OUT RACES PLANTED   races builds of race_planted (PROGRAMS: a folder
-   of them, linked in different orders) against each other: RACES times unchanged, and PLANTED
-   times with each slowdown; each on the machine as it is and beside a compiler on the other
-   core. Each race adds a line to OUT/races.csv; a race that has its line is not run again.
-   race_study table RACES.csv BASE             prints the shares as a table, and writes BASE.dat
-   for plots/power.gp */
+   race_study run PROGRAMS OUT RACES PLANTED [ONLY]   races builds of race_planted (PROGRAMS: a
+   folder of them, linked in different orders) against each other: RACES times unchanged, and
+   PLANTED times with each slowdown; each on the machine as it is and beside a compiler on the
+   other core. ONLY: words PLACE:PER_CENT, such as "idle:2 compiler:5", and no other races (0:
+   unchanged). Each race adds a line to OUT/races.csv; a race that has its line is not run
+   again. race_study table RACES.csv BASE             prints the shares as a table, and writes
+   BASE.dat for plots/power.gp */
 #include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
@@ -66,7 +67,8 @@ static const mote_race_cell cells[] = {
 
 typedef struct study {
     const char *programs, *out;
-    mote_text lines; /* of races.csv */
+    const char *only; /* words PLACE:PER_CENT; "": all */
+    mote_text lines;  /* of races.csv */
     uint64_t start;
 } study;
 
@@ -195,9 +197,41 @@ static mote_status race_and_store(study *s, size_t place, const kind *k, int siz
     return status;
 }
 
-/* Races once, unless its line exists. size 0: unchanged. */
+/* Whether a list of words has PLACE:PER_CENT. */
+static bool names_race(const char *words, size_t place, int size)
+{
+    char *list = mote_format(" %s ", words);
+    char *word = mote_format(" %s:%d ", places[place], size);
+    const bool found = strstr(list, word) != NULL;
+    free(list);
+    free(word);
+    return found;
+}
+
+static mote_status check_only(const char *words)
+{
+    size_t known = 0, given = 0;
+    for (size_t place = 0; place < PLACES_RACED; ++place) {
+        known += names_race(words, place, 0);
+        for (size_t i = 0; i < SIZES; ++i)
+            known += names_race(words, place, sizes[i]);
+    }
+    for (const char *c = words; *c; ++c)
+        given += *c != ' ' && (c == words || c[-1] == ' ');
+    return known == given
+               ? MOTE_OK
+               : mote_fail(
+                     MOTE_EINVAL,
+                     "ONLY=\"%s\": write different words of idle or compiler, a colon, and "
+                     "0, 1, 2, 3, 5 or 10 per cent, such as \"idle:2 compiler:5\"",
+                     words);
+}
+
+/* Races once, unless its line exists or it is not asked for. size 0: unchanged. */
 static mote_status race_once(study *s, size_t place, const kind *k, int size, uint64_t number)
 {
+    if (*s->only && !names_race(s->only, place, size))
+        return MOTE_OK;
     char *key = mote_format("%s,%d,%" PRIu64, size ? k->name : "none", size, number);
     char *begins = mote_format("\n%s,%s,", places[place], key);
     const bool known = strstr(s->lines.data, begins) != NULL;
@@ -242,18 +276,19 @@ static mote_status read_lines(const char *path, mote_text *lines)
     return status;
 }
 
-static mote_status run(const char *programs, const char *out, uint64_t races, uint64_t planted)
+static mote_status run(study *s, uint64_t races, uint64_t planted)
 {
-    study s = {.programs = programs, .out = out};
-    char *path = mote_format("%s/races.csv", out);
-    mote_status status = mote_directory_make(out);
+    char *path = mote_format("%s/races.csv", s->out);
+    mote_status status = check_only(s->only);
+    if (status == MOTE_OK)
+        status = mote_directory_make(s->out);
     mote_child_heed_signals();
     if (status == MOTE_OK)
-        status = read_lines(path, &s.lines);
+        status = read_lines(path, &s->lines);
     if (status == MOTE_OK)
-        status = run_rounds(&s, races, planted);
+        status = run_rounds(s, races, planted);
     free(path);
-    free(s.lines.data);
+    free(s->lines.data);
     return status;
 }
 
@@ -384,14 +419,15 @@ int main(int argc, char **argv)
 {
     uint64_t races, planted;
     mote_status status;
-    if (argc == 6 && strcmp(argv[1], "run") == 0 &&
+    if ((argc == 6 || argc == 7) && strcmp(argv[1], "run") == 0 &&
         mote_read_unsigned(argv[4], 0, 100000, &races) &&
         mote_read_unsigned(argv[5], 0, 100000, &planted)) {
-        status = run(argv[2], argv[3], races, planted);
+        study s = {.programs = argv[2], .out = argv[3], .only = argc == 7 ? argv[6] : ""};
+        status = run(&s, races, planted);
     } else if (argc == 4 && strcmp(argv[1], "table") == 0) {
         status = print_table(argv[2], argv[3]);
     } else {
-        (void)fprintf(stderr, "usage: race_study run PROGRAMS OUT RACES PLANTED\n"
+        (void)fprintf(stderr, "usage: race_study run PROGRAMS OUT RACES PLANTED [ONLY]\n"
                               "       race_study table RACES.csv BASE\n");
         return MOTE_EXIT_USAGE;
     }
