@@ -33,6 +33,7 @@
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make bodies [PROFILE=quick|full] [OUT=DIR]       several bodies: time, memory, missed contacts
+#   make documents                                  tables in documents, from results/reference and records
 #   make perf-check                                 measure again, compare with results/reference
 #   make perf-counts                                the same without times: counts, bytes, accuracy
 #   make perf-ab [BASE=REVISION]                    two revisions side by side: is this one slower?
@@ -334,13 +335,19 @@ report: build page
 STALE ?=
 LIST ?=
 BUSY ?=
-record:
+record: $(if $(LIST),,deps-test)
 ifeq ($(origin OUT),command line)
 	@harness/scripts/record.sh $(call quoted,$(OUT)) results/records
 else
 	@ONLY=$(call quoted,$(ONLY)) HOURS=$(call quoted,$(if $(filter file,$(origin HOURS)),,$(HOURS))) BUSY=$(BUSY) JOBS=$(JOBS) \
-	    harness/scripts/studies.sh harness/scripts/studies.tsv results/records results/record $(if $(LIST),list)
+	    harness/scripts/studies.sh harness/scripts/studies.tsv results/records results/record $(if $(LIST),list) || \
+	    status=$$?; $(if $(LIST),,harness/scripts/documents.py . || status=$$?;) exit $${status:-0}
 endif
+
+# Tables and numbers of the documents are those of results/reference and of the newest records.
+.PHONY: documents
+documents: deps-test
+	@harness/scripts/documents.py .
 
 # The replay of reports: bundled where npm is, left out where it is not.
 .PHONY: page test-page

@@ -1,0 +1,264 @@
+#!/usr/bin/python3
+"""documents.py ROOT [--check]: numbers in documents come from stored results.
+
+A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
+documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
+record of a study of `make record`, or, while there is none, FILE in results/reference. Above the table stands
+when it was measured, and whether the study's sources have changed since. A number within a sentence is typed by
+hand; the sentence stands in SENTENCES with its values, and has to be in the document, rounded as there. --check
+writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot
+be read."""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+SUMMARY = "reference/summary.json"
+DYNAMICS = "dynamics/dynamics.csv"
+RACES = "reference/races.csv"
+END = "<!-- to here -->"
+CHANGED = "its sources have changed since"
+
+
+def record_of(root, source):
+    """The newest record of a source's study: its folder, or None."""
+    folders = [file.parent for file in root.glob(f"results/records/*/{Path(source).parent}/study.json")
+               if (file.parent / Path(source).name).exists()]
+    return max(folders, key=lambda folder: json.loads((folder / "study.json").read_text())["ended"], default=None)
+
+
+def file_of(root, source):
+    return (record_of(root, source) or root / "results" / "reference") / Path(source).name
+
+
+def has_changed(root, study):
+    """Whether the sources of a recorded study have; None without the repository that tells."""
+    listed = subprocess.run(
+        ["bash", "harness/scripts/studies.sh", "harness/scripts/studies.tsv", "results/records", "results/record",
+         "list"], cwd=root, env={**os.environ, "ONLY": study}, capture_output=True, text=True, check=False)
+    return None if listed.returncode > 1 else listed.returncode == 1
+
+
+def heading(root, source, old):
+    """When a table was measured. old: the block as it stands, which is believed where nothing else tells."""
+    if source.startswith("reference/"):
+        return []
+    record = record_of(root, source)
+    if not record:
+        when = max(row["measured"] for row in csv_rows(root, source))[:10]
+        return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
+    study = json.loads((record / "study.json").read_text())
+    changed = has_changed(root, study["study"])
+    changed = CHANGED in old if changed is None else changed
+    return [f"Recorded on {study['ended'][:10]}, [{study['commit']}](../{record.relative_to(root)})"
+            f"{'; ' + CHANGED if changed else ''}.", ""]
+
+
+def csv_rows(root, source):
+    with open(file_of(root, source), newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def summary(root):
+    """Rows of the reference run by scenario and label."""
+    rows = json.loads(file_of(root, SUMMARY).read_text())["rows"]
+    return {(row["scenario"], row["label"]): row for row in rows}
+
+
+def dynamics(root):
+    """Rows of the closed loop by scenario and method."""
+    return {(row["scenario"], row["method"]): row for row in csv_rows(root, DYNAMICS)}
+
+
+def races(root):
+    return csv_rows(root, RACES)
+
+
+def plain(value):
+    """Three digits or so: 5.5, 11.6, 120, 1,249."""
+    return f"{value:,.1f}" if value < 20 else f"{value:,.0f}"
+
+
+def interval(value, low, high):
+    return f"{plain(value)} ({plain(low)} to {plain(high)})"
+
+
+def size(count):
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.0f} kB"
+
+
+def percent(share):
+    """8.1 or 22."""
+    value = 100 * share
+    return f"{value + 1e-9:.0f}" if round(value, 1) >= 10 else f"{value:.1f}"
+
+
+def reference_table(root):
+    rows = summary(root)
+    shown = (
+        ("fcl-aabb", "FCL, axis-aligned boxes, default settings"),
+        ("aabb-tree", "our box tree, refit in every frame"),
+        ("certified", "boxes deformed on demand, with proof"),
+        ("particle-paper:n=5,start=fps", "the paper's method, begun at places far apart"),
+        ("particle:n=16", "particles that track the closest pairs"),
+    )
+    yield ("| method | µs a frame (95 % interval) | times faster than FCL | exact frames | largest error | "
+           "missed contacts | memory |")
+    yield "| --- | --- | --- | ---: | ---: | ---: | ---: |"
+    for label, what in shown:
+        row = rows["ww", label]
+        time, ratio, error = row["total_ns"], row["ratio"], row["error"]
+        times = interval(*(time[key] / 1e3 for key in ("median", "ci_low", "ci_high")))
+        faster = "1" if label == "fcl-aabb" else interval(ratio["value"], ratio["ci_low"], ratio["ci_high"])
+        exact = f"{100 * error['exact_rate']:.1f}".removesuffix(".0") + " %"
+        largest = f"{error['max']:.2g} L" if error["max"] > 1e-9 else "0"
+        yield (f"| `{label}`: {what} | {times} | {faster} | {exact} | {largest} | {row['missed']:g} | "
+               f"{size(row['heap_live_bytes'])} |")
+
+
+PARTICLES = ["particle-paper:n=%d,law=log" % n for n in (1, 2, 3, 4, 5, 8, 16)]
+
+
+def dynamics_table(root):
+    rows = dynamics(root)
+    yield "| scene | n = 1 | 2 | 3 | 4 | 5 | 8 | 16 | tracked, n = 8 | certified |"
+    yield "| --- " * 10 + "|"
+    for scene in ("tt", "mv", "ww", "twist", "comb"):
+        cells = []
+        for method in PARTICLES + ["particle:n=8", "certified"]:
+            row = rows[scene, method]
+            share, low, high = (float(row[key]) for key in ("share", "low", "high"))
+            cells.append(f"{percent(share)} ({percent(low)}-{percent(high)})" if share else f"0 (< {percent(high)})")
+        tried = int(rows[scene, "certified"]["approaches"])
+        name = scene if tried == 1000 else f"{scene} ({tried})"
+        yield f"| {name} | " + " | ".join(cells) + " |"
+
+
+TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table}
+
+
+def pass_through(root, scene, n, law="log"):
+    return percent(float(dynamics(root)[scene, f"particle-paper:n={n},law={law}"]["share"]))
+
+
+def missed_steps(root, method, *scenes):
+    rows = [dynamics(root)[scene, method] for scene in scenes]
+    missed, touching = (sum(int(row[key]) for row in rows) for key in ("missed_steps", "contact_steps"))
+    return f"{missed} of {touching:,}"
+
+
+def unchanged(root, place):
+    found = [r for r in races(root) if r["plant"] == "none" and r["place"] in place]
+    wrong = sum(r["slower"] != "0" or r["faster"] != "0" for r in found)
+    return (wrong, len(found))
+
+
+def planted(root, least, most, place=("idle", "compiler"), named="slower"):
+    """How many races with a slowdown of least .. most per cent named the slowed row, and of how many."""
+    found = [r for r in races(root) if r["plant"] != "none" and r["place"] in place
+             and least <= int(r["per_cent"]) <= most]
+    if named == "alone":
+        found = [r for r in found if r["plant"] != "clock path"]
+    return (sum(int(r["named_alone"]) >= (2 if named == "alone" else 1) for r in found), len(found))
+
+
+def reference_row(root, label, scenario="ww"):
+    return summary(root)[scenario, label]
+
+
+def times_of_particles(root, scenario):
+    """The time of the certified query over that of the paper's method."""
+    exact, paper = (reference_row(root, label, scenario)["total_ns"]["median"]
+                    for label in ("certified", "particle-paper:n=5,start=fps"))
+    return exact / paper
+
+
+# Document, sentence with places for values, and the values.
+SENTENCES = [
+    ("README.md", "(frames {} to {}, {:.0f} of them in contact, {} processes a method,", lambda root: (
+        *reference_row(root, "certified")["frame_range"], reference_row(root, "certified")["contacts"],
+        reference_row(root, "certified")["replicates"])),
+    ("README.md", "the particles are {:.0f}00 times faster than it", lambda root: (
+        reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,)),
+    ("docs/findings.md", "more than {:.0f}00 times as fast as FCL's trees, and {:.1f} % of their distances are exact",
+     lambda root: (
+        reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,
+        100 * reference_row(root, "particle-paper:n=5,start=fps")["error"]["exact_rate"])),
+    ("docs/findings.md", "passes through the other in {} % of 1,000 approaches; with 3 particles it is {} %",
+     lambda root: (pass_through(root, "ww", 5), pass_through(root, "ww", 3))),
+    ("docs/findings.md", "for {:.1f} (`mv`) to {:.1f} times (`ww`) the time of the particles", lambda root: (
+        times_of_particles(root, "mv"), times_of_particles(root, "ww"))),
+    ("docs/findings.md", "up to {} % of approaches pass through at n = 3 (`twist`), up to {} % still at n = 16 (`comb`)",
+     lambda root: (pass_through(root, "twist", 3), pass_through(root, "comb", 16))),
+    ("docs/findings.md", "{} % of the bodies pass through with 3 particles and {} % with 5", lambda root: (
+        pass_through(root, "ww", 3), pass_through(root, "ww", 5))),
+    ("docs/findings.md", "it is up to {} % and {} %", lambda root: (
+        pass_through(root, "twist", 3), pass_through(root, "comb", 3))),
+    ("docs/findings.md", "it misses {} frames in contact there, {} on `twist` and {} on the comb", lambda root: (
+        missed_steps(root, "particle:n=8", "tt", "mv", "ww"), missed_steps(root, "particle:n=8", "twist"),
+        missed_steps(root, "particle:n=8", "comb"))),
+    ("docs/findings.md", "{}, {} and {} % pass through at n = 3, 4 and 5 with the inverse law", lambda root: (
+        pass_through(root, "ww", n, "inverse") for n in (3, 4, 5))),
+    ("docs/findings.md", "{}, {} and {} % with the inverse square", lambda root: (
+        pass_through(root, "ww", n, "inverse-square") for n in (3, 4, 5))),
+    ("docs/benchmarking.md", "{} of {} unchanged builds were called faster or slower on an idle machine, and {} of {} "
+     "beside a compiler", lambda root: (*unchanged(root, ("idle",)), *unchanged(root, ("compiler",)))),
+    ("docs/benchmarking.md", "{} of {} planted slowdowns of 2 % and more were called slower", lambda root: (
+        planted(root, 2, 10))),
+    ("docs/benchmarking.md", "Of 1 %, which is where a change begins to count, {} of {} were", lambda root: (
+        planted(root, 1, 1))),
+]
+
+
+def blocks(text):
+    """The tables of a document: source, and where the lines between its marks begin and end."""
+    for match in re.finditer(r"^<!-- from (\S+) -->\n", text, re.MULTILINE):
+        end = text.find(END + "\n", match.end())
+        yield match[1], match.end(), end if end >= 0 else len(text)
+
+
+def rewritten(root, text):
+    for source, begin, end in reversed(list(blocks(text))):
+        if source not in TABLES:
+            raise KeyError(f"no table is made from {source}; there are {', '.join(TABLES)}")
+        lines = heading(root, source, text[begin:end]) + list(TABLES[source](root))
+        text = text[:begin] + "\n" + "\n".join(lines) + "\n\n" + text[end:]
+    return text
+
+
+def disagreements(root):
+    for document in ["README.md"] + sorted(str(p.relative_to(root)) for p in (root / "docs").glob("*.md")):
+        text = (root / document).read_text()
+        if rewritten(root, text) != text:
+            yield f"{document}: a table is not that of its source; `make documents` writes it"
+    for document, sentence, values in SENTENCES:
+        expected = sentence.format(*values(root))
+        if expected not in " ".join((root / document).read_text().split()):
+            yield f"{document}: by the stored results it should say: {expected}"
+
+
+def main(arguments):
+    if len(arguments) < 1 or arguments[1:] not in ([], ["--check"]):
+        print("usage: documents.py ROOT [--check]", file=sys.stderr)
+        return 2
+    root = Path(arguments[0])
+    try:
+        if arguments[1:] == []:
+            for document in [root / "README.md", *(root / "docs").glob("*.md")]:
+                text = document.read_text()
+                if (new := rewritten(root, text)) != text:
+                    document.write_text(new)
+        wrong = list(disagreements(root))
+    except (OSError, KeyError, ValueError) as error:
+        print(f"documents: {error}", file=sys.stderr)
+        return 4
+    for line in wrong:
+        print(f"documents: {line}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

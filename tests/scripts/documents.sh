@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# documents.sh ROOT WORK: numbers in the documents of ROOT are those of the stored results, and
+# harness/scripts/documents.py notices where they are not, in a copy below WORK.
+set -euo pipefail
+root=$1 work=$2
+fail() { echo "documents: $*" >&2; cat "$work/said" >&2; exit 1; }
+rm -rf "$work"
+mkdir -p "$work/results" "$work/harness"
+: >"$work/said"
+check() { # STATUS [--check]
+    local wanted=$1 status=0
+    shift
+    /usr/bin/python3 "$root/harness/scripts/documents.py" "$@" >"$work/said" 2>&1 || status=$?
+    [ "$status" = "$wanted" ] || fail "$* ends with $status, not $wanted"
+}
+says() { grep -q -- "$1" "$work/said" || fail "does not say: $1"; }
+
+check 0 "$root" --check
+check 2 "$root" --chek
+cp -r "$root/README.md" "$root/docs" "$work"
+cp -r "$root/results/reference" "$work/results"
+cp -r "$root/harness/scripts" "$work/harness"
+
+# A cell of a table, typed by hand, is found and written again.
+sed -i 's/^| tt | 8\.1 /| tt | 8.2 /' "$work/docs/findings.md"
+check 1 "$work" --check
+says 'docs/findings.md: a table is not that of its source'
+check 0 "$work"
+cmp "$root/docs/findings.md" "$work/docs/findings.md"
+
+# So is a number in a sentence, which nothing but a hand can write.
+sed -i 's/processes a method/times a method/' "$work/README.md"
+check 1 "$work"
+says 'README.md: by the stored results it should say: (frames 950 to 1149, 38 of them in contact, 30 processes a method,'
+cp "$root/README.md" "$work"
+
+# A record takes the place of what was there before; its table says when its sources have changed.
+record=$work/results/records/0123456789/dynamics
+mkdir -p "$record"
+cp "$work/results/reference/dynamics.csv" "$record"
+describe() { # HASH ENDED
+    printf '{\n"study": "dynamics",\n"commit": "0123456789",\n"ended": "%s",\n"failed": 0,\n"parts_done": 1,\n"sources_hash": "%s"\n}\n' \
+        "$2" "$1" >"$record/study.json"
+}
+describe 0000000000000000 2027-03-01T12:00:00.000Z
+check 1 "$work" --check
+says 'docs/findings.md: a table is not that of its source'
+(
+    cd "$work"
+    while IFS=$'\t' read -r name _ _ _ sources _; do
+        [ "$name" != dynamics ] || for source in $sources; do mkdir -p "$source" && echo 1 >"$source/one"; done
+    done <harness/scripts/studies.tsv
+    git init -q .
+    git -c core.excludesFile=/dev/null add .
+    git -c user.email=a@b.c -c user.name=somebody commit -qm first
+)
+check 0 "$work"
+line='Recorded on 2027-03-01, \[0123456789\](../results/records/0123456789/dynamics)'
+grep -qx "$line; its sources have changed since\." "$work/docs/findings.md" || fail "not stale: $(grep Recorded "$work/docs/findings.md")"
+
+# Fresh: the document may not call it stale.
+hash=$(cd "$work" && awk -F'\t' '$1 == "dynamics" { print $5 }' harness/scripts/studies.tsv |
+    xargs git ls-files -s -- | git hash-object --stdin | cut -c 1-16)
+describe "$hash" 2027-03-02T12:00:00.000Z
+check 1 "$work" --check
+check 0 "$work"
+grep -qx "${line/01,/02,}\." "$work/docs/findings.md" || fail "not fresh: $(grep Recorded "$work/docs/findings.md")"
+
+# What cannot be read is said, and nothing is written.
+rm "$work/results/reference/summary.json"
+check 4 "$work"
+says 'summary.json'
