@@ -18,6 +18,7 @@ from pathlib import Path
 
 SUMMARY = "reference/summary.json"
 DYNAMICS = "dynamics/dynamics.csv"
+CLAIMS = "claims/claims.json"
 RACES = "reference/races.csv"
 END = "<!-- to here -->"
 CHANGED = "its sources have changed since"
@@ -137,7 +138,24 @@ def dynamics_table(root):
         yield f"| {name} | " + " | ".join(cells) + " |"
 
 
-TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table}
+def measured(value):
+    """A value of a claim that its verdict follows from: name, value and interval, with three digits."""
+    def digits(number):
+        return "0" if value["unit"] == "L" and abs(number) < 1e-9 else f"{number:.3g}"
+    low, high = value["interval"] or (None, None)
+    ends = "" if low == high else f" ({digits(low)} to {digits(high)})"
+    return f"{value['name'].strip()}: {digits(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
+
+
+def claims_table(root):
+    yield "| claim | paper | verdict | measured |"
+    yield "| --- | --- | --- | --- |"
+    for claim in json.loads(file_of(root, CLAIMS).read_text()):
+        values = "; ".join(measured(value) for value in claim["values"] if value["threshold"])
+        yield f"| {claim['id']}. {claim['claim']} | {claim['section']} | {claim['verdict']} | {values} |"
+
+
+TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table}
 
 
 def pass_through(root, scene, n, law="log"):
