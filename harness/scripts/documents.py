@@ -9,6 +9,7 @@ hand; the sentence stands in SENTENCES with its values, and has to be in the doc
 writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot
 be read."""
 import csv
+import functools
 import json
 import os
 import re
@@ -58,17 +59,20 @@ def heading(root, source, old):
             f"{'; ' + CHANGED if changed else ''}.", ""]
 
 
+@functools.cache
 def csv_rows(root, source):
     with open(file_of(root, source), newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
+@functools.cache
 def summary(root):
     """Rows of the reference run by scenario and label."""
     rows = json.loads(file_of(root, SUMMARY).read_text())["rows"]
     return {(row["scenario"], row["label"]): row for row in rows}
 
 
+@functools.cache
 def dynamics(root):
     """Rows of the closed loop by scenario and method."""
     return {(row["scenario"], row["method"]): row for row in csv_rows(root, DYNAMICS)}
@@ -242,27 +246,35 @@ SENTENCES = [
 ]
 
 
-def blocks(text):
+def documents(root):
+    return [root / "README.md", *sorted((root / "docs").glob("*.md"))]
+
+
+def blocks(document, text):
     """The tables of a document: source, and where the lines between its marks begin and end."""
     for match in re.finditer(r"^<!-- from (\S+) -->\n", text, re.MULTILINE):
         end = text.find(END + "\n", match.end())
-        yield match[1], match.end(), end if end >= 0 else len(text)
+        if end < 0:
+            raise ValueError(f"{document}: after the line {match[0].strip()} there is no line {END}")
+        if match[1] not in TABLES:
+            raise ValueError(f"{document}: no table is made from {match[1]}; there are {', '.join(TABLES)}")
+        yield match[1], match.end(), end
 
 
-def rewritten(root, text):
-    for source, begin, end in reversed(list(blocks(text))):
-        if source not in TABLES:
-            raise KeyError(f"no table is made from {source}; there are {', '.join(TABLES)}")
+def rewritten(root, document):
+    """The text of a document, and what it should be."""
+    text = new = document.read_text()
+    for source, begin, end in reversed(list(blocks(document, text))):
         lines = heading(root, source, text[begin:end]) + list(TABLES[source](root))
-        text = text[:begin] + "\n" + "\n".join(lines) + "\n\n" + text[end:]
-    return text
+        new = new[:begin] + "\n" + "\n".join(lines) + "\n\n" + new[end:]
+    return text, new
 
 
 def disagreements(root):
-    for document in ["README.md"] + sorted(str(p.relative_to(root)) for p in (root / "docs").glob("*.md")):
-        text = (root / document).read_text()
-        if rewritten(root, text) != text:
-            yield f"{document}: a table is not that of its source; `make documents` writes it"
+    for document in documents(root):
+        text, new = rewritten(root, document)
+        if new != text:
+            yield f"{document.relative_to(root)}: a table is not that of its source; `make documents` writes it"
     for document, sentence, values in SENTENCES:
         expected = sentence.format(*values(root))
         if expected not in " ".join((root / document).read_text().split()):
@@ -276,9 +288,9 @@ def main(arguments):
     root = Path(arguments[0])
     try:
         if arguments[1:] == []:
-            for document in [root / "README.md", *(root / "docs").glob("*.md")]:
-                text = document.read_text()
-                if (new := rewritten(root, text)) != text:
+            for document in documents(root):
+                text, new = rewritten(root, document)
+                if new != text:
                     document.write_text(new)
         wrong = list(disagreements(root))
     except (OSError, KeyError, ValueError) as error:

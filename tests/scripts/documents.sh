@@ -34,6 +34,14 @@ check 1 "$work"
 says 'README.md: by the stored results it should say: (frames 950 to 1149, 38 of them in contact, 30 processes a method,'
 cp "$root/README.md" "$work"
 
+# A table without an end is refused, and what follows it stays.
+sed -i '/^<!-- to here -->$/d' "$work/docs/findings.md"
+cp "$work/docs/findings.md" "$work/findings.md"
+check 4 "$work"
+says 'there is no line <!-- to here -->'
+cmp "$work/findings.md" "$work/docs/findings.md"
+cp "$root/docs/findings.md" "$work/docs"
+
 # A record takes the place of what was there before; its table says when its sources have changed.
 record=$work/results/records/0123456789/dynamics
 mkdir -p "$record"

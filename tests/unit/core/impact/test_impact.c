@@ -4,8 +4,7 @@
 
 #include "core/skin/skin.h"
 #include "harness/base/heap_count.h"
-#include "tests/support/impact_scene.h"
-#include "tests/support/test.h"
+#include "tests/unit/core/impact/impact_ask.h"
 
 static const double pi = 3.141592653589793;
 
@@ -21,24 +20,6 @@ static void two_boxes(impact_scene *s, double a, double b)
     impact_scene_init(s, impact_box(a, a, a), impact_box(b, b, b), IMPACT_RIGID, 1);
 }
 
-static mote_impact_found ask(impact_scene *s, mote_impact_question question)
-{
-    mote_impact_found found;
-    const mote_status status = mote_impact_query(s->search, &question, &found);
-    if (status != MOTE_OK)
-        fail_msg("%s", mote_error_text());
-    assert_true(question.begin <= found.from && found.from <= found.to &&
-                found.to <= question.end);
-    return found;
-}
-
-static void check_found(const mote_impact_found *found, double time)
-{
-    assert_int_equal(found->outcome, MOTE_IMPACT_FOUND);
-    assert_true(found->from <= time + 1e-12 && time - 1e-12 <= found->to);
-    assert_true(found->to - found->from <= 1.0001e-6);
-}
-
 TEST(mote_impact_query_boxes_on_a_line_meet_when_they_must)
 {
     static const double tolerances[] = {0, 1e-9, 0.1, 1};
@@ -51,9 +32,9 @@ TEST(mote_impact_query_boxes_on_a_line_meet_when_they_must)
                        mote_vec3_make(-5 * size, 0.1 * size, 0), s.of[1].piece[0].centre);
         for (int i = 0; i < 4; ++i) {
             const double tolerance = tolerances[i] * size;
-            const mote_impact_found found = ask(&s, impact_question(&s, tolerance));
+            const mote_impact_found found = impact_ask(&s, impact_question(&s, tolerance));
             /* faces at 1 and 4.5 - 10 t */
-            check_found(&found, (3.5 - tolerances[i]) / 10);
+            impact_check_found(&found, (3.5 - tolerances[i]) / 10);
             assert_true(found.distance <= tolerance);
             check_close(found.normal.x, 1, 1e-9);
             check_close(found.witness[0].x, size, 2e-5 * size);
@@ -69,8 +50,8 @@ TEST(mote_impact_query_fast_body_does_not_pass)
     two_boxes(&s, 0.5, 0.5);
     mote_path_line(mote_vec3_make(51.3, 0, 0), mote_vec3_make(-48.7, 0, 0),
                    s.of[1].piece[0].centre);
-    const mote_impact_found found = ask(&s, impact_question(&s, 1e-3));
-    check_found(&found, (51.3 - 0.501) / 100);
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 1e-3));
+    impact_check_found(&found, (51.3 - 0.501) / 100);
     impact_scene_free(&s);
 }
 
@@ -89,11 +70,11 @@ TEST(mote_impact_query_spinning_bar_meets_a_wall)
         bar->spin = mote_vec3_make(0, 0, -2 * pi * turns[k]);
         for (int i = 0; i < 4; ++i)
             s.of[1].piece[0].centre[i] = mote_vec3_make(1.4, 0, 0);
-        const mote_impact_found found = ask(&s, impact_question(&s, 0));
+        const mote_impact_found found = impact_ask(&s, impact_question(&s, 0));
         /* the upper right corner's radius and angle, as seen from the bar's axis */
         const double radius = sqrt(1 + 0.05 * 0.05), corner = atan2(0.05, 1);
         const double angle = pi / 2 - acos(0.9 / radius) - corner;
-        check_found(&found, angle / (2 * pi * turns[k]));
+        impact_check_found(&found, angle / (2 * pi * turns[k]));
         impact_scene_free(&s);
     }
 }
@@ -106,16 +87,16 @@ TEST(mote_impact_query_body_that_returns)
     mote_path_piece *p = s.of[1].piece;
     p->centre[0] = p->centre[3] = mote_vec3_make(3, 0.2, 0.1);
     p->centre[1] = p->centre[2] = mote_vec3_make(0, 0.2, 0.1); /* x = 3 - 9 t (1 - t) */
-    const mote_impact_found hit = ask(&s, impact_question(&s, 0));
-    check_found(&hit, 0.5 - sqrt(0.25 - 2.0 / 9));
-    const mote_impact_found touch = ask(&s, impact_question(&s, 0.5));
-    check_found(&touch, 0.5 - sqrt(0.25 - 1.5 / 9));
+    const mote_impact_found hit = impact_ask(&s, impact_question(&s, 0));
+    impact_check_found(&hit, 0.5 - sqrt(0.25 - 2.0 / 9));
+    const mote_impact_found touch = impact_ask(&s, impact_question(&s, 0.5));
+    impact_check_found(&touch, 0.5 - sqrt(0.25 - 1.5 / 9));
     p->centre[1] = p->centre[2] = mote_vec3_make(1, 0.2, 0.1); /* 3 - 6 t (1 - t): to 1.5 */
-    const mote_impact_found none = ask(&s, impact_question(&s, 0.4999));
+    const mote_impact_found none = impact_ask(&s, impact_question(&s, 0.4999));
     assert_int_equal(none.outcome, MOTE_IMPACT_NONE);
     assert_true(none.from >= 1);
-    const mote_impact_found near = ask(&s, impact_question(&s, 0.5001));
-    check_found(&near, 0.5 - sqrt(0.25 - 1.4999 / 6));
+    const mote_impact_found near = impact_ask(&s, impact_question(&s, 0.5001));
+    impact_check_found(&near, 0.5 - sqrt(0.25 - 1.4999 / 6));
     impact_scene_free(&s);
 }
 
@@ -125,16 +106,16 @@ TEST(mote_impact_query_both_still_and_touching_at_the_start)
     two_boxes(&s, 1, 1);
     for (int i = 0; i < 4; ++i)
         s.of[1].piece[0].centre[i] = mote_vec3_make(2, 0, 0);
-    const mote_impact_found apart = ask(&s, impact_question(&s, 0.5));
+    const mote_impact_found apart = impact_ask(&s, impact_question(&s, 0.5));
     assert_int_equal(apart.outcome, MOTE_IMPACT_NONE);
     assert_int_equal(apart.iterations, 1);
-    const mote_impact_found touching = ask(&s, impact_question(&s, 1));
+    const mote_impact_found touching = impact_ask(&s, impact_question(&s, 1));
     assert_int_equal(touching.outcome, MOTE_IMPACT_FOUND);
     check_close(touching.from, 0, 0);
     check_close(touching.to, 0, 0);
     for (int i = 0; i < 4; ++i)
         s.of[1].piece[0].centre[i] = mote_vec3_make(0.9, 0, 0);
-    const mote_impact_found within = ask(&s, impact_question(&s, 0));
+    const mote_impact_found within = impact_ask(&s, impact_question(&s, 0));
     assert_int_equal(within.outcome, MOTE_IMPACT_FOUND);
     check_close(within.to, 0, 0);
     assert_true(!(mote_length(within.normal) > 0));
@@ -147,7 +128,7 @@ TEST(mote_impact_query_distance_of_the_tolerance_is_grazing)
     impact_scene s;
     two_boxes(&s, 1, 1);
     mote_path_line(mote_vec3_make(2, 0, 0), mote_vec3_make(2, 0.5, 0), s.of[1].piece[0].centre);
-    const mote_impact_found found = ask(&s, impact_question(&s, 1 - 1e-15));
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 1 - 1e-15));
     assert_int_equal(found.outcome, MOTE_IMPACT_GRAZING);
     check_close(found.distance, 1, 1e-12);
     impact_scene_free(&s);
@@ -185,14 +166,14 @@ TEST(mote_impact_query_parts_of_the_interval)
     mote_path_line(mote_vec3_make(6, 0, 0), mote_vec3_make(-4, 0, 0), s.of[1].piece[0].centre);
     mote_impact_question question = impact_question(&s, 0);
     question.end = 0.49;
-    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_NONE);
+    assert_int_equal(impact_ask(&s, question).outcome, MOTE_IMPACT_NONE);
     question.begin = question.end;
-    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_NONE); /* empty */
+    assert_int_equal(impact_ask(&s, question).outcome, MOTE_IMPACT_NONE); /* empty */
     question.end = 0.6;
-    const mote_impact_found found = ask(&s, question);
-    check_found(&found, 0.5);
+    const mote_impact_found found = impact_ask(&s, question);
+    impact_check_found(&found, 0.5);
     question.begin = question.end = 0.55;
-    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_FOUND);
+    assert_int_equal(impact_ask(&s, question).outcome, MOTE_IMPACT_FOUND);
     impact_scene_free(&s);
 }
 
@@ -202,13 +183,13 @@ TEST(mote_impact_query_pieces_change_nothing)
     impact_scene s;
     two_boxes(&s, 1, 1);
     mote_path_line(mote_vec3_make(6, 0, 0), mote_vec3_make(-4, 0, 0), s.of[1].piece[0].centre);
-    check_close(ask(&s, impact_question(&s, 0)).to, 0.5, 2e-6);
+    check_close(impact_ask(&s, impact_question(&s, 0)).to, 0.5, 2e-6);
     for (int k = 0; k < 4; ++k)
         mote_path_line(mote_vec3_make(6 - 2.5 * k, 0, 0), mote_vec3_make(3.5 - 2.5 * k, 0, 0),
                        s.of[1].piece[k].centre);
     s.of[0].path.count = s.of[1].path.count = 4;
-    const mote_impact_found found = ask(&s, impact_question(&s, 0));
-    check_found(&found, 0.5);
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 0));
+    impact_check_found(&found, 0.5);
     impact_scene_free(&s);
 }
 
@@ -336,7 +317,7 @@ TEST(mote_impact_create_refuses_what_it_cannot_answer)
    end all pairs of triangles are. */
 static void check_random(impact_scene *s, double tolerance)
 {
-    const mote_impact_found found = ask(s, impact_question(s, tolerance));
+    const mote_impact_found found = impact_ask(s, impact_question(s, tolerance));
     for (int i = 0; i <= 40; ++i) {
         const double time = i / 40.0 * found.from;
         if (i < 40 || found.outcome == MOTE_IMPACT_NONE)
@@ -384,11 +365,11 @@ TEST(mote_impact_query_sweeps_save_iterations)
                                   k ? 0 : UINT32_MAX);
         mote_path_line(mote_vec3_make(-3, 1.001, 0), mote_vec3_make(3, 1.001, 0),
                        s.of[1].piece[0].centre);
-        const mote_impact_found past = ask(&s, impact_question(&s, 1e-6));
+        const mote_impact_found past = impact_ask(&s, impact_question(&s, 1e-6));
         assert_int_equal(past.outcome, MOTE_IMPACT_NONE);
         iterations[k] = past.iterations;
-        const mote_impact_found hit = ask(&s, impact_question(&s, 0.0011));
-        check_found(&hit, (2 - sqrt(0.0011 * 0.0011 - 0.001 * 0.001)) / 6);
+        const mote_impact_found hit = impact_ask(&s, impact_question(&s, 0.0011));
+        impact_check_found(&hit, (2 - sqrt(0.0011 * 0.0011 - 0.001 * 0.001)) / 6);
         impact_scene_free(&s);
     }
     assert_true(iterations[0] > 500);
@@ -437,7 +418,7 @@ TEST(mote_impact_query_a_target_before_a_bone)
         const mote_impact_question question = impact_question(&s, 0);
         mote_impact_found found;
         assert_int_equal(mote_impact_query(search, &question, &found), MOTE_OK);
-        check_found(&found, 0.5); /* 0.5 + 3 t = 2 */
+        impact_check_found(&found, 0.5); /* 0.5 + 3 t = 2 */
         check_close(bones ? found.normal.y : found.normal.x, 1, 1e-9);
         /* of the rotation's columns, behind the bone's four; of the amount, in y */
         const size_t wrong[] = {4 + 1, n + field->count - 1};

@@ -3,8 +3,7 @@
 #include "core/impact/impact_state.h"
 
 #include "harness/base/heap_count.h"
-#include "tests/support/impact_scene.h"
-#include "tests/support/test.h"
+#include "tests/unit/core/impact/impact_ask.h"
 
 static const impact_kind arrays[2] = {IMPACT_ARRAYS, IMPACT_ARRAYS};
 
@@ -16,20 +15,7 @@ static void check_close(double a, double b, double tolerance)
 
 static mote_impact_found ask(impact_scene *s, double tolerance)
 {
-    const mote_impact_question question = impact_question(s, tolerance);
-    mote_impact_found found;
-    if (mote_impact_query(s->search, &question, &found) != MOTE_OK)
-        fail_msg("%s", mote_error_text());
-    assert_true(0 <= found.from && found.from <= found.to && found.to <= 1);
-    return found;
-}
-
-static void check_found(const mote_impact_found *found, double time)
-{
-    assert_int_equal(found->outcome, MOTE_IMPACT_FOUND);
-    if (!(found->from <= time + 1e-12 && time - 1e-12 <= found->to))
-        fail_msg("%.17g is not within %.17g .. %.17g", time, found->from, found->to);
-    assert_true(found->to - found->from <= 1.0001e-6);
+    return impact_ask(s, impact_question(s, tolerance));
 }
 
 static void check_none(const mote_impact_found *found)
@@ -76,7 +62,7 @@ TEST(mote_impact_query_point_into_a_face)
     for (int i = 0; i < 3; ++i) {
         const double tolerance = tolerances[i], time = (2 - tolerance) / 3;
         const mote_impact_found found = ask(&s, tolerance);
-        check_found(&found, time);
+        impact_check_found(&found, time);
         assert_true(found.distance <= tolerance);
         check_close(found.normal.z, 1, 1e-6);
         check_close(found.witness[1].x, 0.1 + 0.2 * time, 1e-5);
@@ -100,7 +86,7 @@ TEST(mote_impact_query_edge_over_edge)
     put(&s, 1, 0, above);
     put(&s, 1, 1, below);
     const mote_impact_found found = ask(&s, 0);
-    check_found(&found, 1 / 1.52);
+    impact_check_found(&found, 1 / 1.52);
     check_close(found.witness[0].x, 0, 1e-5);
     check_close(found.witness[0].y, 0.2, 1e-5);
     impact_scene_free(&s);
@@ -282,11 +268,11 @@ TEST(mote_impact_query_boxes_of_arrays_meet_when_they_must)
             put_rest(&s, 1, (int)k, mote_add(o, mote_vec3_make(5 - 10.0 * k / pieces, 0.1, 0)));
         }
         const mote_impact_found found = ask(&s, 0.1);
-        check_found(&found, 0.34);
+        impact_check_found(&found, 0.34);
         check_close(found.normal.x, 1, 1e-9);
         check_close(found.witness[0].x, o.x + 1, 2e-5);
         const mote_impact_found touch = ask(&s, 0);
-        check_found(&touch, 0.35);
+        impact_check_found(&touch, 0.35);
         impact_scene_free(&s);
     }
 }
@@ -302,15 +288,15 @@ TEST(mote_impact_query_arrays_still_touching_and_leaving)
     const mote_impact_found apart = ask(&s, 0.5), touching = ask(&s, 1);
     check_none(&apart);
     assert_int_equal(apart.iterations, 1);
-    check_found(&touching, 0);
+    impact_check_found(&touching, 0);
     check_close(touching.to, 0, 0);
     put_rest(&s, 1, 1, mote_vec3_make(5, 0, 0)); /* it leaves */
     const mote_impact_found leaving = ask(&s, 0.999), started = ask(&s, 1);
     check_none(&leaving);
-    check_found(&started, 0);
+    impact_check_found(&started, 0);
     put_rest(&s, 1, 0, mote_vec3_make(0.5, 0, 0));
     const mote_impact_found within = ask(&s, 0);
-    check_found(&within, 0);
+    impact_check_found(&within, 0);
     assert_true(!(mote_length(within.normal) > 0));
     impact_scene_free(&s);
 }
@@ -358,7 +344,7 @@ TEST(mote_impact_query_arrays_against_a_path)
         piece->spins = true;
         piece->spin = mote_vec3_make(0, 0, 30);     /* its lower face stays level */
         const mote_impact_found found = ask(&s, 0); /* 3.5 - 4 t = t */
-        check_found(&found, 0.7);
+        impact_check_found(&found, 0.7);
         check_close(fabs(found.normal.z), 1, 1e-9);
         impact_scene_free(&s);
     }
@@ -382,7 +368,7 @@ TEST(mote_impact_query_arrays_of_floats_in_records)
             .data = records[k], .stride = sizeof records[k][0], .single = true};
     }
     const mote_impact_found found = ask(&s, 0); /* 4.5 - 8 t = 0.5 */
-    check_found(&found, 0.5);
+    impact_check_found(&found, 0.5);
     impact_scene_free(&s);
 }
 

@@ -2,26 +2,7 @@
    the ends of what sweeps and speeds can show. */
 #include "core/impact/impact_state.h"
 
-#include "tests/support/impact_scene.h"
-#include "tests/support/test.h"
-
-static mote_impact_found ask(impact_scene *s, mote_impact_question question)
-{
-    mote_impact_found found;
-    if (mote_impact_query(s->search, &question, &found) != MOTE_OK)
-        fail_msg("%s", mote_error_text());
-    assert_true(question.begin <= found.from && found.from <= found.to &&
-                found.to <= question.end);
-    return found;
-}
-
-static void check_found(const mote_impact_found *found, double time)
-{
-    assert_int_equal(found->outcome, MOTE_IMPACT_FOUND);
-    if (!(found->from <= time + 1e-12 && time - 1e-12 <= found->to))
-        fail_msg("%.17g is not within %.17g .. %.17g", time, found->from, found->to);
-    assert_true(found->to - found->from <= 1.0001e-6);
-}
+#include "tests/unit/core/impact/impact_ask.h"
 
 static void two_boxes(impact_scene *s, double a, double b, uint32_t patience)
 {
@@ -73,10 +54,10 @@ TEST(mote_impact_query_pieces_without_weights_are_at_rest)
                 rest_at(&s.of[b], 1, 0);
                 rest_at(&s.of[b], 1, 3);
             }
-            const mote_impact_found zeros = ask(&s, impact_question(&s, 0.01));
+            const mote_impact_found zeros = impact_ask(&s, impact_question(&s, 0.01));
             for (int b = 0; b < 2; ++b)
                 s.of[b].piece[0].weights = s.of[b].piece[2].weights = NULL;
-            const mote_impact_found none = ask(&s, impact_question(&s, 0.01));
+            const mote_impact_found none = impact_ask(&s, impact_question(&s, 0.01));
             assert_memory_equal(&zeros.outcome, &none.outcome, sizeof none.outcome);
             assert_memory_equal(&zeros.from, &none.from, sizeof none.from);
             assert_memory_equal(&zeros.to, &none.to, sizeof none.to);
@@ -112,7 +93,7 @@ TEST(mote_impact_query_between_kinds_of_rotation)
         cubic->turn[1] = impact_spun(mote_scale(cubic->spin, 1.0 / 3), start);
         cubic->turn[2] = impact_spun(mote_scale(cubic->spin, 2.0 / 3), start);
         cubic->turn[3] = end;
-        const mote_impact_found found = ask(&s, impact_question(&s, 0.01));
+        const mote_impact_found found = impact_ask(&s, impact_question(&s, 0.01));
         assert_true(found.outcome == MOTE_IMPACT_FOUND || found.outcome == MOTE_IMPACT_NONE);
         check_samples(&s, &found, 0.01);
         impact_scene_free(&s);
@@ -133,7 +114,7 @@ TEST(mote_impact_query_pieces_that_do_not_join_are_refused)
         impact_path_random(&s.of[0], &w, &s.random);
         impact_path_random(&s.of[1], &w, &s.random);
         const mote_impact_question q = impact_question(&s, 0);
-        (void)ask(&s, q);
+        (void)impact_ask(&s, q);
         impact_body *b = &s.of[1];
         double *control = b->control[1];
         if (k == 0)
@@ -172,7 +153,7 @@ TEST(mote_impact_query_body_that_leaves_from_the_tolerance)
                            s.of[1].piece[k].centre);
         mote_impact_question question = impact_question(&s, 1 - 1e-9);
         question.begin = pieces == 1 ? 0 : 0.5;
-        const mote_impact_found found = ask(&s, question);
+        const mote_impact_found found = impact_ask(&s, question);
         assert_int_equal(found.outcome, MOTE_IMPACT_NONE);
         assert_true(found.from >= 1);
         assert_in_range(found.iterations, 3, 30);
@@ -188,7 +169,7 @@ TEST(mote_impact_query_body_that_stops_at_the_tolerance_is_grazing)
     s.of[0].path.count = s.of[1].path.count = 2;
     mote_path_line(mote_vec3_make(4, 0, 0), mote_vec3_make(2, 0, 0), s.of[1].piece[0].centre);
     mote_path_line(mote_vec3_make(2, 0, 0), mote_vec3_make(2, 0, 0), s.of[1].piece[1].centre);
-    const mote_impact_found found = ask(&s, impact_question(&s, 1 - 1e-12));
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 1 - 1e-12));
     assert_int_equal(found.outcome, MOTE_IMPACT_GRAZING);
     assert_true(found.from > 0.5 - 1e-9 && found.from < 0.5 + 2e-6);
     assert_true(found.distance > 1 - 1e-12 && found.distance < 1 + 1e-9);
@@ -205,7 +186,7 @@ TEST(mote_impact_query_slow_approach_is_proven_as_far_as_the_iterations_go)
     mote_path_piece *p = s.of[1].piece;
     p->centre[0] = mote_vec3_make(4, 0, 0);
     p->centre[1] = p->centre[2] = p->centre[3] = mote_vec3_make(2, 0, 0);
-    const mote_impact_found found = ask(&s, impact_question(&s, 1 - 1e-12));
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 1 - 1e-12));
     assert_int_equal(found.outcome, MOTE_IMPACT_UNDECIDED);
     assert_true(found.from > 0.8 && found.from < 1);
     assert_true(fabs(found.distance - 1 - 2 * pow(1 - found.to, 3)) < 1e-12);
@@ -229,10 +210,10 @@ TEST(mote_impact_query_gap_below_the_noise_of_the_piece_that_follows)
     mote_impact_question question = impact_question(&s, 0);
     question.begin = 0.5 - 5e-8;
     question.end = 0.5;
-    const mote_impact_found before = ask(&s, question);
+    const mote_impact_found before = impact_ask(&s, question);
     assert_int_equal(before.outcome, MOTE_IMPACT_NONE);
     question.end = 1;
-    const mote_impact_found found = ask(&s, question);
+    const mote_impact_found found = impact_ask(&s, question);
     /* nothing is proven in piece 1, where rounding hides the gap */
     assert_int_equal(found.outcome, MOTE_IMPACT_GRAZING);
     assert_true(found.from >= 0.5 && found.from < 0.5 + 1e-6);
@@ -255,9 +236,9 @@ TEST(mote_impact_query_acceleration_that_overflows)
         const double x = 5 * u * u * u + 24 * t * u * u + 12 * t * t * u + t * t * t;
         *(x > 1.5 ? &low : &high) = t;
     }
-    const mote_impact_found found = ask(&s, impact_question(&s, 0.5e153));
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 0.5e153));
     assert_true(isinf(s.search->rates[0].acceleration));
-    check_found(&found, low);
+    impact_check_found(&found, low);
     impact_scene_free(&s);
 }
 
@@ -309,7 +290,7 @@ TEST(mote_impact_query_more_boxes_than_are_kept)
                        s.of[1].piece[0].centre);
         s.of[0].piece[0].spins = true;
         s.of[0].piece[0].spin = mote_vec3_make(0.05, 0, 0);
-        found[k] = ask(&s, impact_question(&s, 1e-3));
+        found[k] = impact_ask(&s, impact_question(&s, 1e-3));
         assert_int_equal(found[k].outcome, MOTE_IMPACT_NONE);
         assert_int_equal(s.search->sweep.failed, k == 0);
         impact_scene_free(&s);
@@ -375,8 +356,8 @@ TEST(mote_impact_query_sparse_field_that_is_no_skin)
         s.of[0].piece[0].weights = control;
         for (int i = 0; i < 4; ++i)
             s.of[1].piece[0].centre[i] = mote_vec3_make(3, 0.1, 0);
-        found[k] = ask(&s, impact_question(&s, 0)); /* 1 + 2 t = 2.5 */
-        check_found(&found[k], 0.75);
+        found[k] = impact_ask(&s, impact_question(&s, 0)); /* 1 + 2 t = 2.5 */
+        impact_check_found(&found[k], 0.75);
         const mote_impact_groups *groups = &s.search->groups[0];
         assert_true(groups->most_of_all[2] >= 1 && groups->most_of_all[2] < 1 + 1e-9);
         s.of[0].piece[0].weights = NULL;
@@ -410,8 +391,8 @@ TEST(mote_impact_query_skin_of_very_many_bones)
     assert_int_equal(s.search->groups[0].count, 1);
     mote_path_line(mote_vec3_make(5, 0.1, 0), mote_vec3_make(-5, 0.1, 0),
                    s.of[1].piece[0].centre);
-    const mote_impact_found found = ask(&s, impact_question(&s, 0)); /* 4.5 - 10 t = 1 */
-    check_found(&found, 0.35);
+    const mote_impact_found found = impact_ask(&s, impact_question(&s, 0)); /* 4.5 - 10 t = 1 */
+    impact_check_found(&found, 0.35);
     impact_scene_free(&s);
     mote_field_destroy(field);
 }
