@@ -3,6 +3,7 @@
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,19 +16,25 @@
 /* The largest coordinate allowed, in L. */
 #define FAR 1e6
 
+/* Whether a number may begin here: strtod and strtoul would skip the end of a line. */
+static bool begins_number(const char *c)
+{
+    return !isspace((unsigned char)*c);
+}
+
 /* Reads "F,B," and NUMBERS numbers from a line; returns the next line, or NULL if the line is
    different. */
 static const char *read_row(const char *line, uint32_t frame, uint32_t body,
                             double numbers[NUMBERS])
 {
     char *end;
-    if (strtoul(line, &end, 10) != frame || *end != ',')
+    if (!begins_number(line) || strtoul(line, &end, 10) != frame || *end != ',')
         return NULL;
-    if (strtoul(end + 1, &end, 10) != body)
+    if (!begins_number(end + 1) || strtoul(end + 1, &end, 10) != body)
         return NULL;
     for (int k = 0; k < NUMBERS; ++k) {
         const char *from = end + 1;
-        if (*end != ',')
+        if (*end != ',' || !begins_number(from))
             return NULL;
         numbers[k] = strtod(from, &end);
         if (end == from || !(fabs(numbers[k]) <= (k == 0 ? 1e12 : FAR)))

@@ -388,6 +388,8 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
         {POSES ROW_1 "2,1,2e12,0,1,0,1,0,0,0\n", "p.csv:3: not a pose"},
         {POSES ROW_1 "2,1,2,0,1,0,0,0,0,0\n", "p.csv:3: not a pose"},
         {POSES ROW_1 "2,1,2,0,1,0,1,0,0,0,7\n", "p.csv:3: not a pose"},
+        {POSES ROW_1 "2,1,2,0,1,\n0,1,0,0,0\n", "p.csv:3: not a pose"},
+        {POSES ROW_1 "\n2,1,2,0,1,0,1,0,0,0\n", "p.csv:3: not a pose"},
         {POSES ROW_1 "2,1,2,0,1,0,1,0,0,0", "p.csv:3: not a pose"},
         {POSES ROW_1 ROW_2 "3", "p.csv:4: more rows than 2 frames of 1 bodies"},
     };
