@@ -4,8 +4,8 @@
 
 #include "core/stream/stream.h"
 
-/* Makes a stream with the options and the trees of `owner`, which must outlive it. MOTE_ENOMEM;
-   MOTE_EINVAL where threads cannot be started. The caller destroys *stream. */
+/* Makes a stream with the options and the trees of `owner`, which must outlive it. MOTE_ENOMEM,
+   also where threads cannot be started. The caller destroys *stream. */
 mote_status mote_stream_create_beside(const mote_stream *owner, mote_stream **stream);
 
 /* The next query starts from nothing, as the first one does. */
