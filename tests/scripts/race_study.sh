@@ -27,6 +27,7 @@ line='(idle|compiler|busy),none,0,1,0,0,2,0,0,1\.00000,1\.00000,1\.00000,[0-9]+,
 grep -q '^mote: ONLY="idle:4": .*such as "idle:2 compiler:5"' "$work/said" || fail "$(cat "$work/said")"
 "$study" run "$work/programs" "$work/only" 0 1 'compiler:5' >"$work/said" || fail "status $?: $(cat "$work/said")"
 [ "$(cut -d , -f 2-4 "$work/only/races.csv")" = "$(printf '%s\n' plant,per_cent,number 'certified query,5,1' 'particle sweep,5,1' 'clock path,5,1')" ] || fail "ONLY=compiler:5: $(cat "$work/only/races.csv")"
+grep -q '^MOTE_PLANT=clock:1000 ' "$work/only/racers/b/00" || fail "5 % of a frame of 20 us: $(cat "$work/only/racers/b/00")"
 
 # Beside other tests the machine may have been busy, and then the race would be repeated.
 sed -i '2s/^[a-z]*/idle/; 3s/^[a-z]*/compiler/' "$work/races.csv"
