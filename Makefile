@@ -258,7 +258,7 @@ SECONDS ?= 60
 .PHONY: fuzz build-fuzz
 build-fuzz: deps-test deps-fuzz
 	@$(call configure,fuzz)
-	@$(call compile,build-fuzz,$(addprefix fuzz_,scenario mesh character sequence options cell summary)) > /dev/null
+	@$(call compile,build-fuzz,fuzz_targets) > /dev/null
 
 fuzz: build-fuzz
 	@tests/scripts/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
