@@ -31,19 +31,34 @@ fi
 errors=$(mktemp)
 trap 'rm -f "$errors"' EXIT
 
+locked() {
+    grep -q 'Could not get lock' "$errors"
+}
+
 # apt ARGUMENT...: apt-get, waiting while another process uses it. By itself it waits for the
 # lock of dpkg only; for the lock of its lists and archives it is called again, for ten minutes.
 apt() {
     tries=60
-    until $run env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 "$@" \
-        2>"$errors"; do
+    until $run env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 \
+        -o Acquire::Retries=3 "$@" 2>"$errors"; do
         cat "$errors" >&2
         tries=$((tries - 1))
-        [ $tries -gt 0 ] && grep -q 'Could not get lock' "$errors" || return 1
+        [ $tries -gt 0 ] && locked || return 1
         sleep 10
     done
     cat "$errors" >&2
 }
-apt update
-# shellcheck disable=SC2086
-apt install -y --no-install-recommends $missing
+
+# A server that is out of reach for a moment, or lists that changed between both calls, need not
+# end a build: both are made again, three times in all.
+install() {
+    # shellcheck disable=SC2086
+    apt update && apt install -y --no-install-recommends $missing
+}
+for wait in 10 30; do
+    install && exit 0
+    ! locked || exit 1
+    echo "Packages were not installed; trying again in $wait s." >&2
+    sleep $wait
+done
+install
