@@ -22,10 +22,9 @@ typedef struct mote_cert_poses {
     size_t triangles;
 } mote_cert_poses;
 
-/* Reorders count >= 2 items in two parts, and returns how many are in the first. With one pose,
-   these are halves, split across the main axis. With more, they are where their boxes over all
-   poses are small: each has `least` items or more (1 .. count / 2), and neither more than
-   `most` unless both halves have. Cost O(count poses^2). */
+/* Reorders count >= 2 items in two parts that are small at rest or, with more poses, in all of
+   them, and returns how many are in the first. Each has `least` items or more (1 .. count / 2),
+   and neither more than `most` unless both halves have. Cost O(count poses^2). */
 uint32_t mote_cert_split(const mote_cert_poses *poses, mote_cert_item *items, uint32_t count,
                          uint32_t least, uint32_t most);
 

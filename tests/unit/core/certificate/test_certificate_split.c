@@ -7,6 +7,8 @@
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
+#include <float.h>
+
 enum { TRIANGLES = 1500, POSES = 3 };
 
 static float centres[POSES * TRIANGLES][3];
@@ -111,6 +113,23 @@ TEST(parts_are_as_uneven_as_there_is_room_for)
     }
 }
 
+/* The same with what counts at rest alone, the spread of both parts. */
+TEST(at_rest_alone_clusters_are_parted_where_there_is_room)
+{
+    static mote_cert_item items[TRIANGLES];
+    const mote_cert_poses poses = poses_of(64, 1);
+    for (uint32_t first = 20; first <= 44; first += 24) {
+        place(64, first, 0, items);
+        const uint32_t half = mote_cert_split(&poses, items, 64, 1, 44);
+        check_all_there(items, 64);
+        assert_true(parts_clusters(items, 64, half, first));
+        place(64, first, 0, items);
+        const uint32_t less = mote_cert_split(&poses, items, 64, 1, 40);
+        check_all_there(items, 64);
+        assert_true(less >= 24 && less <= 40);
+    }
+}
+
 /* 20 of 64 apart from 44: found where a part may be as small as that, not where it may not. */
 TEST(parts_have_as_many_triangles_as_they_need)
 {
@@ -184,12 +203,32 @@ TEST(trees_with_samples_have_no_empty_leaf)
 TEST(few_and_equal_triangles_are_halved)
 {
     static mote_cert_item items[TRIANGLES];
-    for (uint32_t count = 2; count < 70; ++count) {
-        place(count, count, POSES, items);
-        memset(centres, 0, sizeof centres);
-        const mote_cert_poses poses = poses_of(count, POSES);
-        /* neither half holds `most`: halves, then */
-        assert_true(mote_cert_split(&poses, items, count, 1, 0) == count / 2);
-        check_all_there(items, count);
+    for (uint32_t poses = 1; poses <= POSES; poses += POSES - 1) {
+        for (uint32_t count = 2; count < 70; ++count) {
+            place(count, count, POSES, items);
+            memset(centres, 0, sizeof centres);
+            const mote_cert_poses p = poses_of(count, poses);
+            /* neither half holds `most`: halves, then */
+            assert_true(mote_cert_split(&p, items, count, 1, 0) == count / 2);
+            check_all_there(items, count);
+        }
+    }
+}
+
+TEST(triangles_that_are_not_finite_are_split_within_bounds)
+{
+    static const float odd[] = {INFINITY, -INFINITY, NAN, FLT_MAX, -FLT_MAX};
+    static mote_cert_item items[TRIANGLES];
+    for (uint32_t poses = 1; poses <= POSES; poses += POSES - 1) {
+        for (uint32_t count = 2; count < 700; count += count < 70 ? 1 : 97) {
+            const uint32_t least = count < 20 ? 1 : count / 4;
+            place(count, count, POSES, items);
+            for (uint32_t t = 0; t < poses * count; t += 3)
+                centres[t][t % 3] = odd[t / 3 % ROWS_OF(odd)];
+            const mote_cert_poses p = poses_of(count, poses);
+            const uint32_t half = mote_cert_split(&p, items, count, least, count - least);
+            assert_true(half >= least && half <= count - least);
+            check_all_there(items, count);
+        }
     }
 }
