@@ -46,6 +46,17 @@ void mote_cert_set_best(mote_certificate *c, double squared)
         c->done = true;
 }
 
+/* A position of the first faces. A contact question of rigid bodies mostly ends with these, and
+   keeping them would take longer than evaluating them does. */
+static mote_vec3 first_position(mote_certificate *c, int s, uint32_t vertex)
+{
+    mote_cert_side *side = &c->side[s];
+    if (c->enough < 0 || side->tree->body->field->count > 0)
+        return mote_lazy_position(&side->lazy, vertex);
+    ++c->counters.positions;
+    return mote_body_position(side->tree->body, side->lazy.state, vertex);
+}
+
 /* Measures two faces, which become the best pair. */
 static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
 {
@@ -53,7 +64,7 @@ static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
     for (int s = 0; s < 2; ++s) {
         memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         for (int k = 0; k < 3; ++k)
-            t[s][k] = mote_lazy_position(&c->side[s].lazy, first[s][k]);
+            t[s][k] = first_position(c, s, first[s][k]);
     }
     ++c->counters.triangle_tests;
     c->best.squared =

@@ -134,9 +134,9 @@ float mote_cert_farthest_reach(const mote_cert_node *node);
 /* certificate_apart.c */
 
 /* For a contact question after one that showed the bodies to be apart: whether they are rigid,
-   and the boxes around them at rest are apart along the direction remembered. *lower: proven.
- */
-bool mote_cert_rest_apart(const mote_certificate *c, const mote_frame *frame, double *lower);
+   and the boxes around them at rest are apart along the direction remembered, or one found from
+   it, which is then remembered. *lower: proven. */
+bool mote_cert_rest_apart(mote_certificate *c, const mote_frame *frame, double *lower);
 
 /* The same question, when that has not answered it, both sides have
    begun and the limit is set: whether the roots of both trees are apart along the direction

@@ -105,6 +105,30 @@ TEST(contact_after_a_leap_is_that_of_all_pairs)
     scene_free(&s);
 }
 
+/* One rigid body circles another in steps of 80 degrees: no direction parts them twice, but a
+   turned one does, so that the boxes at rest are enough. */
+TEST(contact_of_a_rigid_body_that_circles_is_denied_without_any_block)
+{
+    scene s;
+    scene_init(&s, 18, 9, 1, false);
+    mote_certificate *c = certificate_of(&s, NULL);
+    scene_next(&s, 4, false);
+    for (int k = 0; k < 50; ++k) {
+        const double angle = 1.4 * k;
+        s.frame.body[1].pose.translation =
+            mote_vec3_make(4 * s.length * cos(angle), 4 * s.length * sin(angle), 0);
+        scene_step(&s);
+        mote_certificate_answer a;
+        mote_certificate_query(c, &s.frame, NULL, 0, &a);
+        test_row("step %d", k);
+        check_bracket(&s, &a, scene_distance(&s));
+        assert_true(a.lower > 0);
+        assert_true(k == 0 || a.counters.blocks == 0);
+    }
+    mote_certificate_destroy(c);
+    scene_free(&s);
+}
+
 /* Places body 1 along x, in the frame and in the world. */
 static void place_at(scene *s, double x)
 {
