@@ -20,6 +20,8 @@ from pathlib import Path
 SUMMARY = "reference/summary.json"
 DYNAMICS = "dynamics/dynamics.csv"
 CLAIMS = "claims/claims.json"
+BODIES = "bodies/bodies.csv"
+ENGINES = "engines/summary.csv"
 RACES = "reference/races.csv"
 SOAK = "reference/soak.csv"
 RELIABILITY = "reference/reliability.csv"
@@ -162,6 +164,71 @@ def measured(value):
     return f"{value['name'].strip()}: {digits(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
 
 
+def milliseconds(nanoseconds):
+    return f"{nanoseconds / 1e6:,.0f}" if nanoseconds >= 1e8 else f"{nanoseconds / 1e6:.3g}"
+
+
+LETTERS = {0.1: "w-1000-0.1", 1: "w-1000-1", 4: "w-1000-4"}
+
+
+@functools.cache
+def bodies(root):
+    """Rows of the scenes of several bodies by scene and method."""
+    return {(row["scenario"], row["method"]): row for row in csv_rows(root, BODIES)}
+
+
+def step(root, scene, method):
+    return float(bodies(root)[scene, method]["step_mean_ns"])
+
+
+def bodies_table(root):
+    methods = ("certified", "fcl-aabb:refit=every", "fcl-aabb", "aabb-tree", "particle:n=8", "particle-paper:n=5")
+    yield "| near pairs a body | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
+    yield "| --- " + "| ---: " * (1 + len(methods)) + "|"
+    for density, scene in LETTERS.items():
+        cells = [milliseconds(step(root, scene, method)) for method in methods]
+        for k, method in enumerate(methods):
+            row = bodies(root)[scene, method]
+            missed = int(float(row["missed"]))
+            if missed:
+                cells[k] += f", {missed} of {int(float(row['contacts']))} contacts missed"
+            elif k:
+                cells[k] += f", {step(root, scene, method) / step(root, scene, 'certified'):.3g} times"
+        yield f"| {density} | {bodies(root)[scene, 'certified']['steps']} | " + " | ".join(cells) + " |"
+
+
+OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
+
+
+def answers_of(root, scenario):
+    """The finished rows of a scenario in the run of all engines that have no wrong verdict."""
+    return [row for row in csv_rows(root, ENGINES)
+            if row["scenario"] == scenario and row["status"] == "ok"
+            and float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0]
+
+
+def engines_table(root):
+    yield ("| scene, question | `certified`, median and mean | fastest engine by the median | times `certified` | fastest by the "
+           "mean | times `certified` | FCL, times `certified` | `aabb-tree`, times `certified` |")
+    yield "| --- | ---: | --- | ---: | --- | ---: | ---: | ---: |"
+    for scenario in ("ww", "mv", "tt-distance", "ww-contact", "mv-contact", "tt", "rigid-ww", "rigid-mv"):
+        rows = answers_of(root, scenario)
+        cells = []
+        for key in ("total_ns_median", "total_ns_mean"):
+            ours = min(float(row[key]) for row in rows if row["method"] == "certified")
+            best = {}
+            for kind, chosen in (("others", lambda row: row["method"] not in OWN),
+                                 ("fcl", lambda row: row["method"].startswith("fcl-")),
+                                 ("tree", lambda row: row["method"] == "aabb-tree")):
+                best[kind] = min(((float(row[key]) / ours, row["label"]) for row in rows if chosen(row)))
+            cells.append((ours, best))
+        (median, by_median), (mean, by_mean) = cells
+        question = "contact" if scenario in ("ww-contact", "mv-contact", "tt", "rigid-ww", "rigid-mv") else "distance"
+        yield (f"| {scenario.split('-contact')[0].split('-distance')[0]}, {question} | {median / 1e3:.3g} and {mean / 1e3:.3g} µs | "
+               f"`{by_median['others'][1]}` | {by_median['others'][0]:.3g} | `{by_mean['others'][1]}` | {by_mean['others'][0]:.3g} | "
+               f"{by_median['fcl'][0]:.3g} | {by_median['tree'][0]:.3g} |")
+
+
 def claims_table(root):
     yield "| claim | paper | verdict | measured |"
     yield "| --- | --- | --- | --- |"
@@ -170,7 +237,8 @@ def claims_table(root):
         yield f"| {claim['id']}. {claim['claim']} | {claim['section']} | {claim['verdict']} | {values} |"
 
 
-TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table}
+TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
+          ENGINES: engines_table}
 
 
 def pass_through(root, scene, n, law="log"):

@@ -171,19 +171,24 @@ sum_checks() {
     awk -F'\t' '!($1 in tried) { order[++n] = $1 } { tried[$1] += $2; failed[$1] += $3 }
         END { for (i = 1; i <= n; ++i) printf "%s\t%.0f\t%.0f\n", order[i], tried[order[i]], failed[order[i]] }' "$@"
 }
+# Copies the files of a part that the table names; a pattern does not look into folders that it does not name.
+keep_files() { # PART FOLDER
+    local pattern file
+    while read -r pattern; do
+        while read -r file; do
+            cp "$file" "$2"
+        done < <(compgen -G "$1/$pattern")
+    done < <(tr ' ' '\n' <<<"$files")
+}
 keep() {
     local folder=$records/$commit/$name part file passed failed checks
     rm -rf "$folder.part"
     mkdir -p "$folder.part"
     passed=$(parts_done)
     failed=$(cat "$work/$name"/part-*/.status | awk '$1 != 0 { ++n } END { print n + 0 }')
-    set -f # patterns for find; of one name the last part's file stays
-    for part in $(seq -f "$work/$name/part-%.0f" "$parts"); do
-        for file in $files; do
-            [ ! -d "$part" ] || find "$part" -path "$part/$file" -exec cp {} "$folder.part" \;
-        done
+    for part in $(seq "$parts"); do # of one name the last part's file stays
+        keep_files "$work/$name/part-$part" "$folder.part"
     done
-    set +f
     checks=("$work/$name"/part-*/checks.tsv)
     [ ! -f "${checks[0]}" ] || sum_checks "${checks[@]}" >"$folder.part/checks.tsv"
     cat >"$folder.part/study.json" <<JSON
