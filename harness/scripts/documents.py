@@ -184,19 +184,31 @@ def step(root, scene, method):
 
 def bodies_table(root):
     methods = ("certified", "fcl-aabb:refit=every", "fcl-aabb", "aabb-tree", "particle:n=8", "particle-paper:n=5")
-    yield "| near pairs a body | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
-    yield "| ---: | ---: " + "| --- " * len(methods) + "|"
+    yield "| near pairs a body | asked about | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
+    yield "| ---: | ---: | ---: " + "| --- " * len(methods) + "|"
     for density, scene in LETTERS.items():
         cells = []
         for method in methods:
             row = bodies(root)[scene, method]
-            time, missed = step(root, scene, method), int(float(row["missed"]))
+            time, found, missed = step(root, scene, method), *(int(float(row[key])) for key in ("contacts", "missed"))
             cells.append(digits(time / 1e6))
             if method != "certified":
                 cells[-1] += f" ({digits(time / step(root, scene, 'certified'))} times)"
             if missed:
-                cells[-1] += f", {missed} of {int(float(row['contacts'])):,} contacts missed"
-        yield f"| {density} | {bodies(root)[scene, 'certified']['steps']} | " + " | ".join(cells) + " |"
+                cells[-1] += f", {missed} of {found + missed:,} contacts missed"
+        ours = bodies(root)[scene, "certified"]
+        yield f"| {density} | {digits(float(ours['near_pairs_a_body']))} | {ours['steps']} | " + " | ".join(cells) + " |"
+
+
+def megabytes(root, scene, method="certified"):
+    return float(bodies(root)[scene, method]["rss_peak_bytes"]) / 1e6
+
+
+def gains(root, options):
+    """How many times as fast a step of 1,000 letters is with some threads, for each density."""
+    rows = json.loads(file_of(root, "bodies/bodies.json").read_text())["gains"]
+    return [next(row["gain"] for row in rows if row["bodies"] == 1000 and row["method"] == f"certified:{options}"
+                 and abs(row["near_pairs"] - density) < 1e-9) for density in LETTERS]
 
 
 OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
@@ -350,6 +362,13 @@ SENTENCES = [
      "{:.0f} µs, FCL {:,.0f} to {:,.0f} µs", lambda root: (
         *query_times(root, "particle:n=8", "certified"), *query_times(root, *particles(5)),
         *(round(time, -2) for time in query_times(root, "fcl-aabb:seed=previous,queue=64")))),
+    ("docs/findings.md", "takes {:.0f} to {:.0f} MB with `certified` and {:.1f} GB with `refit=every`; with 10,000 letters of 4 "
+     "shapes `certified` takes {:.0f} MB at 4 near pairs a body", lambda root: (
+        *(megabytes(root, LETTERS[density]) for density in (0.1, 4)),
+        megabytes(root, LETTERS[4], "fcl-aabb:refit=every") / 1e3, megabytes(root, "letters-10000-4"))),
+    ("docs/findings.md", "takes {:.2f}, {:.2f} and {:.2f} of the time with `threads=2` at 0.1, 1 and 4 near pairs a body, {:.2f}, "
+     "{:.2f} and {:.2f} with `ahead=3`, and {:.2f}, {:.2f} and {:.2f} with both", lambda root: (
+        1 / gain for options in ("threads=2", "ahead=3", "threads=2,ahead=3") for gain in gains(root, options))),
     ("docs/findings.md", "of {:,} distances of `certified` in random scenes, {} were farther than 1e-12 L from it, and {} "
      "lower bounds lay above it", lambda root: (
         *reversed(failures(root, "certified beyond 1e-12 L of the truth")),
