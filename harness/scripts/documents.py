@@ -21,6 +21,7 @@ SUMMARY = "reference/summary.json"
 DYNAMICS = "dynamics/dynamics.csv"
 CLAIMS = "claims/claims.json"
 BODIES = "bodies/bodies.csv"
+CROWDS = "bodies/characters-summary.csv"
 ENGINES = "engines/summary.csv"
 RACES = "reference/races.csv"
 SOAK = "reference/soak.csv"
@@ -157,11 +158,13 @@ def dynamics_table(root):
 
 def measured(value):
     """A value of a claim that its verdict follows from: name, value and interval, with three digits."""
-    def digits(number):
+    def shown(number):
         return "0" if value["unit"] == "L" and abs(number) < 1e-9 else f"{number:.3g}"
+    if value["value"] is None:
+        return f"{value['name'].strip()}: not measured"
     low, high = value["interval"] or (None, None)
-    ends = "" if low == high else f" ({digits(low)} to {digits(high)})"
-    return f"{value['name'].strip()}: {digits(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
+    ends = "" if low == high else f" ({shown(low)} to {shown(high)})"
+    return f"{value['name'].strip()}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
 
 
 def digits(value):
@@ -198,6 +201,18 @@ def bodies_table(root):
                 cells[-1] += f", {missed} of {found + missed:,} contacts missed"
         ours = bodies(root)[scene, "certified"]
         yield f"| {density} | {digits(float(ours['near_pairs_a_body']))} | {ours['steps']} | " + " | ".join(cells) + " |"
+
+
+def crowd_table(root):
+    """Characters: the same methods but the particles, from a run of its own."""
+    methods = ("certified", "aabb-tree", "fcl-aabb", "fcl-aabb:refit=every")
+    rows = {(row["scenario"], row["label"]): row for row in csv_rows(root, CROWDS)}
+    yield "| near pairs a body | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
+    yield "| ---: | ---: " + "| --- " * len(methods) + "|"
+    for density in LETTERS:
+        times = [float(rows[f"crowd-200-{density}", method]["active_total_ns_mean"]) for method in methods]
+        cells = [digits(times[0] / 1e6), *(f"{digits(time / 1e6)} ({digits(time / times[0])} times)" for time in times[1:])]
+        yield f"| {density} | {rows[f'crowd-200-{density}', 'certified']['frames']} | " + " | ".join(cells) + " |"
 
 
 def megabytes(root, scene, method="certified"):
@@ -254,7 +269,7 @@ def claims_table(root):
 
 
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
-          ENGINES: engines_table}
+          CROWDS: crowd_table, ENGINES: engines_table}
 
 
 def pass_through(root, scene, n, law="log"):
@@ -362,6 +377,8 @@ SENTENCES = [
      "{:.0f} µs, FCL {:,.0f} to {:,.0f} µs", lambda root: (
         *query_times(root, "particle:n=8", "certified"), *query_times(root, *particles(5)),
         *(round(time, -2) for time in query_times(root, "fcl-aabb:seed=previous,queue=64")))),
+    ("docs/certified.md", "On an idle machine a step of these letters takes {:.1f} ms", lambda root: (
+        step(root, LETTERS[4], "certified") / 1e6,)),
     ("docs/findings.md", "takes {:.0f} to {:.0f} MB with `certified` and {:.1f} GB with `refit=every`; with 10,000 letters of 4 "
      "shapes `certified` takes {:.0f} MB at 4 near pairs a body", lambda root: (
         *(megabytes(root, LETTERS[density]) for density in (0.1, 4)),

@@ -172,11 +172,13 @@ sum_checks() {
         END { for (i = 1; i <= n; ++i) printf "%s\t%.0f\t%.0f\n", order[i], tried[order[i]], failed[order[i]] }' "$@"
 }
 # Copies the files of a part that the table names; a pattern does not look into folders that it does not name.
+# Figures keep their names, other/file becomes other-file.
 keep_files() { # PART FOLDER
-    local pattern file
+    local pattern file name
     while read -r pattern; do
         while read -r file; do
-            cp "$file" "$2"
+            name=${file#"$1/"} name=${name#figures/}
+            cp "$file" "$2/${name//\//-}"
         done < <(compgen -G "$1/$pattern")
     done < <(tr ' ' '\n' <<<"$files")
 }

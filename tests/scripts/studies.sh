@@ -24,7 +24,7 @@ row() { # NAME PLACE MINUTES PARTS SOURCES FILES COMMAND
 {
     echo "# a comment"
     row sums beside 30 3 core 'sum.csv log*' "\"$work/run\" sums"
-    row pictures beside 60 1 plots '*.csv figures/*.svg' "\"$work/run\" pictures"
+    row pictures beside 60 1 plots '*.csv figures/*.svg other/*.csv' "\"$work/run\" pictures"
 } >table.tsv
 printf 'work/\nrecords/\n' >.gitignore
 git add . && git commit -qm first
@@ -38,7 +38,8 @@ printf 'a, b\t10\t0\nc\t%s\t1\n' "$PART" >"$OUT/checks.tsv"
 echo "$1 \"$PART\"" >"$OUT/sum.csv"
 mkdir -p "$OUT/figures"
 echo svg >"$OUT/figures/one.svg"
-mkdir -p "$OUT/cells"
+mkdir -p "$OUT/other" "$OUT/cells"
+echo 2 >"$OUT/other/sum.csv"
 echo 1 >"$OUT/cells/cell.csv"
 RUN
 chmod +x "$work/run"
@@ -72,6 +73,7 @@ head=$(git rev-parse --short=10 HEAD)
 [ "$(cat "records/$head/sums/checks.tsv")" = "$(printf 'a, b\t30\t0\nc\t6\t3')" ] || fail "sums of checks"
 [ -f "records/$head/sums/log.txt" ] || fail "the log is not kept"
 [ -f "records/$head/pictures/one.svg" ] || fail "a file of a folder is not kept"
+[ -f "records/$head/pictures/other-sum.csv" ] || fail "a file of a folder replaces another"
 [ ! -e "records/$head/pictures/cell.csv" ] || fail "keeps a file of a folder that the table does not name"
 [ ! -e "records/$head/sums/one.svg" ] || fail "keeps a file that the table does not name"
 python3 -c 'import json, sys; s = json.load(open(sys.argv[1])); assert s["parts_done"] == 3 and s["failed"] == 0 and s["study"] == "sums"' \
