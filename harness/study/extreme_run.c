@@ -219,22 +219,32 @@ static void judge_all(const mote_extreme *e, const message *told, mote_extreme_c
     cell->query_ns = (uint64_t)mote_statistics_median(ns, MOTE_EXTREME_FRAMES);
 }
 
-/* Chooses the method with the scene's parameters; *has is false if it lacks one. */
+/* Whether a method has the key of a parameter such as "n=1". */
+static bool has_key(const mote_method *method, const char *parameter)
+{
+    for (size_t i = 0; method && i < method->parameter_count; ++i) {
+        const char *key = method->parameters[i].key;
+        const size_t length = strlen(key);
+        if (strncmp(parameter, key, length) == 0 && parameter[length] == '=')
+            return true;
+    }
+    return false;
+}
+
+/* Chooses the method with the scene's parameters; *has is false if it lacks one, or if its key
+   of that name takes no such value (precision is a number where impacts are asked for). */
 static mote_status choose(const mote_extreme *e, const char *method, mote_method_choice *choice,
                           bool *has)
 {
-    char text[128];
-    const mote_method *found = mote_method_find(method);
     *has = !e->parameters;
-    for (size_t i = 0; found && e->parameters && i < found->parameter_count; ++i) {
-        const char *key = found->parameters[i].key;
-        const size_t length = strlen(key);
-        *has =
-            *has || (strncmp(e->parameters, key, length) == 0 && e->parameters[length] == '=');
+    if (e->parameters && has_key(mote_method_find(method), e->parameters)) {
+        char text[128];
+        (void)snprintf(text, sizeof text, "%s:%s", method, e->parameters);
+        *has = mote_method_choice_read(text, choice) == MOTE_OK;
+        if (*has)
+            return MOTE_OK;
     }
-    (void)snprintf(text, sizeof text, "%s%s%s", method, e->parameters && *has ? ":" : "",
-                   e->parameters && *has ? e->parameters : "");
-    return mote_method_choice_read(text, choice);
+    return mote_method_choice_read(method, choice);
 }
 
 /* Processor time of all children so far. */

@@ -328,6 +328,7 @@ TEST(methods_in_32_bits_are_inexact_as_they_say)
     make("float method", 0, true, &e);
     assert_string_equal(e.parameters, "precision=single");
     expect_verdict(&e, "certified", MOTE_EXTREME_NONE);
+    expect_verdict(&e, "fcl-continuous", MOTE_EXTREME_NONE); /* its precision is a number */
     expect_verdict(&e, "particle-paper", MOTE_EXTREME_INEXACT);
     mote_extreme_free(&e);
 }
