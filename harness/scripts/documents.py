@@ -79,8 +79,8 @@ def summary(root):
 
 @functools.cache
 def dynamics(root):
-    """Rows of the closed loop by scenario and method."""
-    return {(row["scenario"], row["method"]): row for row in csv_rows(root, DYNAMICS)}
+    """Rows of the closed loop in which a step is a frame, by scenario and method."""
+    return {(row["scenario"], row["method"]): row for row in csv_rows(root, DYNAMICS) if not row.get("within")}
 
 
 PAPER_SCENES = ("tt", "mv", "ww")
