@@ -27,7 +27,7 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->node_count = 0;
     side->reached = NULL;
     for (size_t i = 0; i < MOTE_CERT_HULLS; ++i)
-        side->hull_of[i] = NULL;
+        side->hulls[i].leaf = NULL;
     tree->bounds->begin(side);
 }
 

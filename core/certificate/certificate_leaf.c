@@ -117,32 +117,32 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
     return side->reached_at;
 }
 
-/* The place of a leaf's near hull among those that are kept. */
-static size_t hull_place(const mote_cert_node *node, size_t lane)
+/* The slot for the near hull of a leaf. */
+static mote_cert_hull *hull_place(mote_cert_side *side, const mote_cert_node *node, size_t lane)
 {
-    return (uint32_t)~node->block->child[lane] % MOTE_CERT_HULLS;
+    return &side->hulls[(uint32_t)~node->block->child[lane] % MOTE_CERT_HULLS];
 }
 
 const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
                                                 const mote_cert_node *node, size_t lane)
 {
-    const size_t place = hull_place(node, lane);
-    return side->hull_of[place] == leaf_of(side->tree, node, lane) ? &side->hulls[place] : NULL;
+    const mote_cert_hull *hull = hull_place(side, node, lane);
+    return hull->leaf == leaf_of(side->tree, node, lane) ? hull : NULL;
 }
 
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane)
 {
     const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
-    const size_t place = hull_place(node, lane);
-    mote_cert_hull *hull = &side->hulls[place];
-    if (side->hull_of[place] == leaf)
+    mote_cert_hull *hull = hull_place(side, node, lane);
+    if (hull->leaf == leaf)
         return hull;
     hull->leaf = leaf;
     hull->groups = mote_cert_group_count(leaf);
-    const bool made = side->tree->bounds->hull(side, node, lane, hull);
-    side->hull_of[place] = made ? leaf : NULL;
-    return made ? hull : NULL;
+    if (side->tree->bounds->hull(side, node, lane, hull))
+        return hull;
+    hull->leaf = NULL;
+    return NULL;
 }
 
 /* The least and the most of x, or of x less y where y is not NULL. */

@@ -81,8 +81,7 @@ typedef struct mote_cert_side {
     float shift;      /* translation along facing */
     double threshold; /* the plane, as a coordinate towards the other body */
     float threshold_f;
-    const mote_cert_leaf *hull_of[MOTE_CERT_HULLS]; /* whose hulls are kept; NULL: of none */
-    mote_cert_hull hulls[MOTE_CERT_HULLS];          /* with the field evaluated */
+    mote_cert_hull hulls[MOTE_CERT_HULLS]; /* with the field evaluated */
     mote_cert_node *nodes;                 /* [node_room]; the root is the first */
     uint32_t node_room, node_count;
     /* the last result of mote_cert_leaf_reach: its leaf, direction and value */
