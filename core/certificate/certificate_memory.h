@@ -15,11 +15,11 @@ typedef struct mote_cert_memory {
     bool saddle; /* steady, and the plane is crossed next to the faces, but descending from them
                     comes no nearer */
     bool has_direction;
-    float direction[3]; /* the last that separated two leaves */
-    bool parted;        /* the last query, a contact question, showed the bodies to be apart */
-    bool parted_at_rest; /* the boxes around both bodies at rest showed it */
+    float direction[3];  /* the last that separated two leaves */
+    bool parted;         /* the last query, a contact question, showed the bodies to be apart */
+    bool parted_at_rest; /* the boxes around both bodies at rest showed it, or may */
     uint8_t rest_pause;  /* so many queries do not ask these boxes */
-    float parting[3];   /* along this direction, from body 0 to body 1, or one near it */
+    float parting[3];    /* along this direction, from body 0 to body 1, or one near it */
 } mote_cert_memory;
 
 #endif
