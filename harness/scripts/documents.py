@@ -70,17 +70,21 @@ def csv_rows(root, source):
         return list(csv.DictReader(file))
 
 
+def by_method(rows, name="method"):
+    """Rows by scenario and method, or by scenario and label."""
+    return {(row["scenario"], row[name]): row for row in rows}
+
+
 @functools.cache
 def summary(root):
     """Rows of the reference run by scenario and label."""
-    rows = json.loads(file_of(root, SUMMARY).read_text())["rows"]
-    return {(row["scenario"], row["label"]): row for row in rows}
+    return by_method(json.loads(file_of(root, SUMMARY).read_text())["rows"], "label")
 
 
 @functools.cache
 def dynamics(root):
     """Rows of the closed loop in which a step is a frame, by scenario and method."""
-    return {(row["scenario"], row["method"]): row for row in csv_rows(root, DYNAMICS) if not row.get("within")}
+    return by_method(row for row in csv_rows(root, DYNAMICS) if not row.get("within"))
 
 
 PAPER_SCENES = ("tt", "mv", "ww")
@@ -156,17 +160,6 @@ def dynamics_table(root):
         yield f"| {name} | " + " | ".join(cells) + " |"
 
 
-def measured(value):
-    """A value of a claim that its verdict follows from: name, value and interval, with three digits."""
-    def shown(number):
-        return "0" if value["unit"] == "L" and abs(number) < 1e-9 else f"{number:.3g}"
-    if value["value"] is None:
-        return f"{value['name'].strip()}: not measured"
-    low, high = value["interval"] or (None, None)
-    ends = "" if low == high else f" ({shown(low)} to {shown(high)})"
-    return f"{value['name'].strip()}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
-
-
 def digits(value):
     """Three digits, and thousands set apart: 0.18, 9.57, 28.1, 1,280."""
     return f"{value:,.0f}" if value >= 100 else f"{value:#.3g}".rstrip(".")
@@ -178,41 +171,46 @@ LETTERS = {0.1: "w-1000-0.1", 1: "w-1000-1", 4: "w-1000-4"}
 @functools.cache
 def bodies(root):
     """Rows of the scenes of several bodies by scene and method."""
-    return {(row["scenario"], row["method"]): row for row in csv_rows(root, BODIES)}
+    return by_method(csv_rows(root, BODIES))
 
 
 def step(root, scene, method):
     return float(bodies(root)[scene, method]["step_mean_ns"])
 
 
+def step_cells(times):
+    """Cells of milliseconds; all but the first say how many times the first they take."""
+    return [digits(times[0] / 1e6), *(f"{digits(time / 1e6)} ({digits(time / times[0])} times)" for time in times[1:])]
+
+
+def step_head(columns, methods):
+    yield f"| {' | '.join(columns)} | " + " | ".join(f"`{method}`" for method in methods) + " |"
+    yield "| ---: " * len(columns) + "| --- " * len(methods) + "|"
+
+
 def bodies_table(root):
     methods = ("certified", "fcl-aabb:refit=every", "fcl-aabb", "aabb-tree", "particle:n=8", "particle-paper:n=5")
-    yield "| near pairs a body | asked about | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
-    yield "| ---: | ---: | ---: " + "| --- " * len(methods) + "|"
+    yield from step_head(("near pairs a body", "asked about", "steps"), methods)
     for density, scene in LETTERS.items():
-        cells = []
-        for method in methods:
-            row = bodies(root)[scene, method]
-            time, found, missed = step(root, scene, method), *(int(float(row[key])) for key in ("contacts", "missed"))
-            cells.append(digits(time / 1e6))
-            if method != "certified":
-                cells[-1] += f" ({digits(time / step(root, scene, 'certified'))} times)"
+        cells = step_cells([step(root, scene, method) for method in methods])
+        for k, method in enumerate(methods):
+            found, missed = (int(float(bodies(root)[scene, method][key])) for key in ("contacts", "missed"))
             if missed:
-                cells[-1] += f", {missed} of {found + missed:,} contacts missed"
+                cells[k] += f", {missed} of {found + missed:,} contacts missed"
         ours = bodies(root)[scene, "certified"]
-        yield f"| {density} | {digits(float(ours['near_pairs_a_body']))} | {ours['steps']} | " + " | ".join(cells) + " |"
+        asked = digits(float(ours["near_pairs_a_body"]))
+        yield f"| {density} | {asked} | {ours['steps']} | " + " | ".join(cells) + " |"
 
 
 def crowd_table(root):
     """Characters: the same methods but the particles, from a run of its own."""
     methods = ("certified", "aabb-tree", "fcl-aabb", "fcl-aabb:refit=every")
-    rows = {(row["scenario"], row["label"]): row for row in csv_rows(root, CROWDS)}
-    yield "| near pairs a body | steps | " + " | ".join(f"`{method}`" for method in methods) + " |"
-    yield "| ---: | ---: " + "| --- " * len(methods) + "|"
+    rows = by_method(csv_rows(root, CROWDS), "label")
+    yield from step_head(("near pairs a body", "steps"), methods)
     for density in LETTERS:
-        times = [float(rows[f"crowd-200-{density}", method]["active_total_ns_mean"]) for method in methods]
-        cells = [digits(times[0] / 1e6), *(f"{digits(time / 1e6)} ({digits(time / times[0])} times)" for time in times[1:])]
-        yield f"| {density} | {rows[f'crowd-200-{density}', 'certified']['frames']} | " + " | ".join(cells) + " |"
+        scene = f"crowd-200-{density}"
+        cells = step_cells([float(rows[scene, method]["active_total_ns_mean"]) for method in methods])
+        yield f"| {density} | {rows[scene, 'certified']['frames']} | " + " | ".join(cells) + " |"
 
 
 def megabytes(root, scene, method="certified"):
@@ -258,6 +256,17 @@ def engines_table(root):
         tree = fastest(rows, "median", lambda method: method == "aabb-tree")
         yield (f"| {name} | {digits(median / 1e3)}, {digits(mean / 1e3)} | `{by_median[1]}` | {digits(by_median[0] / median)} | "
                f"`{by_mean[1]}` | {digits(by_mean[0] / mean)} | {digits(fcl[0] / median)} | {digits(tree[0] / median)} |")
+
+
+def measured(value):
+    """A value of a claim that its verdict follows from: name, value and interval, with three digits."""
+    def shown(number):
+        return "0" if value["unit"] == "L" and abs(number) < 1e-9 else f"{number:.3g}"
+    if value["value"] is None:
+        return f"{value['name'].strip()}: not measured"
+    low, high = value["interval"] or (None, None)
+    ends = "" if low == high else f" ({shown(low)} to {shown(high)})"
+    return f"{value['name'].strip()}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
 
 
 def claims_table(root):

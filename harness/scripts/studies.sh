@@ -174,16 +174,17 @@ sum_checks() {
 # Copies the files of a part that the table names; a pattern does not look into folders that it does not name.
 # Figures keep their names, other/file becomes other-file.
 keep_files() { # PART FOLDER
-    local pattern file name
-    while read -r pattern; do
+    local pattern file name patterns
+    read -ra patterns <<<"$files"
+    for pattern in "${patterns[@]}"; do
         while read -r file; do
             name=${file#"$1/"} name=${name#figures/}
             cp "$file" "$2/${name//\//-}"
         done < <(compgen -G "$1/$pattern")
-    done < <(tr ' ' '\n' <<<"$files")
+    done
 }
 keep() {
-    local folder=$records/$commit/$name part file passed failed checks
+    local folder=$records/$commit/$name part passed failed checks
     rm -rf "$folder.part"
     mkdir -p "$folder.part"
     passed=$(parts_done)
