@@ -1,7 +1,8 @@
 /* ode: the Open Dynamics Engine's collision of two triangle meshes (OPCODE), for contact only.
    Built only where ODE is installed. Its trees are built over the rest pose and refitted in
    place (dGeomTriMeshDataUpdate); one contact is asked for, without details. OPCODE's boxes are
-   floats; triangles are tested in double precision. */
+   floats; triangles are tested in double precision. A mesh of one triangle gets no tree, and
+   its contacts are never found (datasets/defects.md, 21): it is refused. */
 #include "baselines/physics_engine.h"
 
 #include <ode/ode.h>
@@ -92,6 +93,9 @@ static mote_status create_body(ode_state *s, int b, bool single)
 {
     const mote_mesh *mesh = s->engine.body[b].mesh;
     ode_body *body = &s->body[b];
+    if (mesh->triangle_count < 2)
+        return mote_fail(MOTE_EUNSUPPORTED,
+                         "ODE finds no contact of a mesh of one triangle, as body %d is", b);
     if (single)
         body->floats = calloc(mesh->vertex_count, sizeof body->floats[0]);
     else

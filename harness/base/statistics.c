@@ -337,7 +337,19 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
     return found;
 }
 
-/* Bisquare regression of log y on log x with an intercept. */
+static int fit_least_squares(const gsl_matrix *design, const gsl_vector *values,
+                             gsl_vector *fitted, gsl_matrix *covariance)
+{
+    gsl_multifit_linear_workspace *work =
+        gsl_multifit_linear_alloc(design->size1, design->size2);
+    double squares;
+    const int status = gsl_multifit_linear(design, values, fitted, covariance, &squares, work);
+    gsl_multifit_linear_free(work);
+    return status;
+}
+
+/* Regression of log y on log x with an intercept: bisquare, or least squares where the weights
+   of bisquare alternate between fits for ever. */
 static int fit_logarithms(const double *x, const double *y, size_t count, double *slope,
                           double *error)
 {
@@ -351,7 +363,9 @@ static int fit_logarithms(const double *x, const double *y, size_t count, double
         gsl_matrix_set(design, i, 1, log(x[i]));
         gsl_vector_set(values, i, log(y[i]));
     }
-    const int status = gsl_multifit_robust(design, values, fitted, covariance, work);
+    int status = gsl_multifit_robust(design, values, fitted, covariance, work);
+    if (status == GSL_EMAXITER)
+        status = fit_least_squares(design, values, fitted, covariance);
     *slope = gsl_vector_get(fitted, 1);
     *error = sqrt(gsl_matrix_get(covariance, 1, 1));
     gsl_multifit_robust_free(work);
@@ -376,8 +390,6 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
     (void)gsl_set_error_handler(handle_error);
     double slope = 0, error = 0;
     int status = fit_logarithms(x, y, count, &slope, &error);
-    if (status == GSL_EMAXITER)
-        return MOTE_OK;
     if (status != GSL_SUCCESS)
         return mote_fail(MOTE_ENUMERIC, "no exponent: %s", gsl_strerror(status));
     double half = gsl_cdf_tdist_Pinv(0.975, (double)(count - 2)) * error;

@@ -93,8 +93,8 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
                                       size_t b_count);
 
 /* The exponent e of y ~ x^e, by robust (bisquare) regression of the logarithms, with its 95 %
-   interval. x, y > 0. MOTE_NONE for fewer than four points, for a single x, or if the weights
-   do not converge. MOTE_ENUMERIC. */
+   interval; by least squares if the weights do not converge. x, y > 0. MOTE_NONE for fewer than
+   four points or for a single x. MOTE_ENUMERIC. */
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 

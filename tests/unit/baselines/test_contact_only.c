@@ -5,6 +5,7 @@
 #include "tests/support/test.h"
 
 #include <stdio.h>
+#include <string.h>
 
 typedef struct engine {
     const char *method;
@@ -157,6 +158,23 @@ TEST(create_of_what_cannot_be_answered_is_refused)
         scene_free(&s);
         if (e->posed) {
             scene_init(&s, 6, 4, 1, true);
+            expect_refused(e, &s, MOTE_ASK_CONTACT, 0, MOTE_EUNSUPPORTED);
+            scene_free(&s);
+        }
+    }
+}
+
+/* Where ODE would find nothing, or crash (datasets/defects.md, 21). */
+TEST(ode_refuses_a_mesh_of_one_triangle)
+{
+    for (size_t i = 0; i < ENGINES; ++i) {
+        const engine *e = &engines[i];
+        if (strcmp(e->method, "ode") != 0 || !mote_method_find(e->method))
+            continue;
+        for (int b = 0; b < 2; ++b) {
+            scene s;
+            scene_init(&s, 6, 4, 1, !e->posed);
+            s.mesh[b]->triangle_count = 1;
             expect_refused(e, &s, MOTE_ASK_CONTACT, 0, MOTE_EUNSUPPORTED);
             scene_free(&s);
         }

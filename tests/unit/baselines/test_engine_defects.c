@@ -1,15 +1,19 @@
-/* The known defects of Coal and Bullet (datasets/defects.md). As in test_defects.c, a test
+/* The known defects of Coal, Bullet and ODE (datasets/defects.md). As in test_defects.c, a test
    passes while the library shows the defect; it is skipped if the library was not found. */
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
 #include "harness/scene/scenario.h"
 #include "tests/support/peers/bullet_defects.h"
 #include "tests/support/peers/coal_defects.h"
+#include "tests/support/peers/ode_defects.h"
 #include "tests/support/test.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #define MENDED "the library no longer shows this defect; see datasets/defects.md"
 
@@ -135,3 +139,38 @@ TEST(bullet_was_not_found)
 }
 
 #endif /* MOTE_HAVE_BULLET */
+
+#ifdef MOTE_HAVE_ODE
+
+TEST(ode_finds_no_contact_of_a_single_triangle)
+{
+    assert_true(mote_ode_contacts((const int[]){2, 2}) > 0);
+    if (mote_ode_contacts((const int[]){1, 2}) > 0 ||
+        mote_ode_contacts((const int[]){2, 1}) > 0)
+        fail_msg(MENDED);
+}
+
+TEST(ode_crashes_on_two_single_triangles)
+{
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        (void)signal(SIGSEGV, SIG_DFL);
+        (void)close(STDERR_FILENO);
+        (void)mote_ode_contacts((const int[]){1, 1});
+        _exit(0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        fail_msg(MENDED);
+}
+
+#else
+
+TEST(ode_was_not_found)
+{
+    (void)fprintf(stderr, "skipped: ODE was not found when this was built\n");
+}
+
+#endif /* MOTE_HAVE_ODE */
