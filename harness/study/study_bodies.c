@@ -37,6 +37,9 @@ static const char *const own_ways[] = {"certified"};
 static const char *const threaded[] = {"certified:ahead=3", "certified:threads=2",
                                        "certified:threads=2,ahead=3"};
 
+/* Processes of each own way in the full study: their times are compared with each other. */
+enum { OWN_REPLICATES = 3 };
+
 /* Characters: crowd, in boxes of other sizes, by the exact methods, which come first in
    every_way. */
 static const char *const crowd_densities[] = {"0.1", "1", "4"};
@@ -106,16 +109,17 @@ static mote_status add_ways(const char *const *texts, size_t count, mote_choices
     return status;
 }
 
-/* Measures the first `last` frames (0: all) of the scenario at path into a directory. */
+/* Measures the first `last` frames (0: all) of the scenario at path into a directory, in so
+   many processes a way. */
 static mote_status measure(const study *s, const char *directory, const char *path,
-                           const mote_choices *ways, uint32_t last)
+                           const mote_choices *ways, uint32_t last, uint32_t replicates)
 {
     mote_run_outcome outcome;
     const char *const scenarios[] = {path};
     const mote_run_options options = {.scenarios = scenarios,
                                       .scenario_count = 1,
                                       .choices = ways,
-                                      .plan = {.replicates = 1,
+                                      .plan = {.replicates = replicates,
                                                .first = last ? 1 : 0,
                                                .last = last,
                                                .seed = 1,
@@ -130,17 +134,22 @@ static mote_status measure(const study *s, const char *directory, const char *pa
 
 static mote_status measure_scene(const study *s, const scene *of)
 {
-    mote_choices ways = {0};
+    mote_choices ways = {0}, own = {0};
     char *path = NULL;
-    mote_status status =
-        of->four ? add_ways(own_ways, 1, &ways) : add_ways(every_way, 6, &ways);
+    const uint32_t frames = of->frames[s->quick];
+    mote_status status = write_scene(s, of, &path);
+    if (status == MOTE_OK && !of->four)
+        status = add_ways(every_way, 6, &ways);
+    if (status == MOTE_OK && !of->four)
+        status = measure(s, s->directory, path, &ways, frames, 1);
+    if (status == MOTE_OK)
+        status = add_ways(own_ways, 1, &own);
     if (status == MOTE_OK && of->count >= 100)
-        status = add_ways(threaded, 3, &ways);
+        status = add_ways(threaded, 3, &own);
     if (status == MOTE_OK)
-        status = write_scene(s, of, &path);
-    if (status == MOTE_OK)
-        status = measure(s, s->directory, path, &ways, of->frames[s->quick]);
+        status = measure(s, s->directory, path, &own, frames, s->quick ? 1 : OWN_REPLICATES);
     mote_choices_free(&ways);
+    mote_choices_free(&own);
     free(path);
     return status;
 }
@@ -165,7 +174,7 @@ static mote_status measure_film(const study *s)
     if (status == MOTE_OK)
         status = add_ways(own_ways, 1, &ways);
     if (status == MOTE_OK)
-        status = measure(s, folder, path, &ways, 0);
+        status = measure(s, folder, path, &ways, 0, 1);
     mote_choices_free(&ways);
     free(text.data);
     free(folder);
@@ -190,7 +199,7 @@ static mote_status measure_characters(const study *s, const char *folder)
         char *path = mote_format("%s/%s", folder, name);
         status = mote_record_text(folder, name, &text);
         if (status == MOTE_OK)
-            status = measure(s, folder, path, &ways, crowd_frames[s->quick]);
+            status = measure(s, folder, path, &ways, crowd_frames[s->quick], 1);
         free(name);
         free(path);
     }
@@ -227,10 +236,16 @@ static double mean_of(const mote_summary_row *row)
     return row->active_total.mean;
 }
 
-/* The wall time per frame, including motion. */
+/* The wall time per frame, including motion: the median over processes. */
 static double wall_of(const mote_summary_row *row)
 {
-    return mote_stored_number(row->first, "frames_wall_ns") / (double)row->frames;
+    double walls[OWN_REPLICATES];
+    size_t count = 0;
+    for (size_t r = 0; r < row->replicates && count < OWN_REPLICATES; ++r) {
+        if (row->cells[r].status == MOTE_CELL_OK)
+            walls[count++] = mote_stored_number(&row->cells[r], "frames_wall_ns");
+    }
+    return mote_statistics_median(walls, count) / (double)row->frames;
 }
 
 static bool is_exact(const mote_summary_row *row)
