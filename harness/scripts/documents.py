@@ -3,8 +3,9 @@
 
 A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
-record of a study of `make record`, or, while there is none, FILE in results/reference. Above the table stands
-when it was measured, and whether the study's sources have changed since. A number within a sentence is typed by
+record of a study of `make record`, or, while there is none, FILE in results/reference; "checks" are the checks.tsv
+of all records, and what only results/reference has. Above the table stands when it was measured, and whether the
+study's sources have changed since. A number within a sentence is typed by
 hand; the sentence stands in SENTENCES with its values, and has to be in the document, rounded as there. --check
 writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot
 be read."""
@@ -23,6 +24,7 @@ CLAIMS = "claims/claims.json"
 BODIES = "bodies/bodies.csv"
 CROWDS = "bodies/characters-summary.csv"
 ENGINES = "engines/summary.csv"
+CHECKS = "checks"
 RACES = "reference/races.csv"
 SOAK = "reference/soak.csv"
 RELIABILITY = "reference/reliability.csv"
@@ -53,6 +55,8 @@ def heading(root, source, old):
     """When a table was measured. old: the block as it stands, which is believed where nothing else tells."""
     if source.startswith("reference/"):
         return []
+    if source == CHECKS:
+        return heading_of_checks(root, old)
     record = record_of(root, source)
     if not record:
         when = max(row["measured"] for row in csv_rows(root, source))[:10]
@@ -62,6 +66,26 @@ def heading(root, source, old):
     changed = CHANGED in old if changed is None else changed
     return [f"Recorded on {study['ended'][:10]}, [{study['commit']}](../{record.relative_to(root)})"
             f"{'; ' + CHANGED if changed else ''}.", ""]
+
+
+def checked(root):
+    """The newest record of every study that has checks: its study.json and its folder, by name."""
+    studies = {file.parent.name for file in root.glob("results/records/*/*/checks.tsv")}
+    folders = {name: record_of(root, f"{name}/checks.tsv") for name in sorted(studies)}
+    return {name: (json.loads((folder / "study.json").read_text()), folder) for name, folder in folders.items()}
+
+
+def heading_of_checks(root, old):
+    links, changed = [], []
+    for name, (study, folder) in checked(root).items():
+        links.append(f"[{name}](../{folder.relative_to(root)})")
+        now = has_changed(root, name)
+        if f"`{name}`" in old if now is None else now:
+            changed.append(f"`{name}`")
+    if not links:
+        return []
+    sources = f" The sources of {', '.join(changed)} have changed since." if changed else ""
+    return [f"Recorded: {', '.join(links)}; the others stand in the reference.{sources}", ""]
 
 
 @functools.cache
@@ -277,8 +301,28 @@ def claims_table(root):
         yield f"| {claim['id']}. {claim['claim']} | {claim['section']} | {claim['verdict']} | {values} |"
 
 
+@functools.cache
+def checks(root):
+    """By name, how many cases were tried, how many failed, and when: of the records, or else of the reference."""
+    rows = {}
+    for study, folder in checked(root).values():
+        for line in (folder / "checks.tsv").read_text().splitlines():
+            check, tried, failed = line.split("\t")
+            rows[check] = (int(tried), int(failed), study["ended"][:10])
+    for row in csv_rows(root, RELIABILITY):
+        rows.setdefault(row["check"], (int(row["tried"]), int(row["failed"]), row["date"]))
+    return rows
+
+
+def checks_table(root):
+    yield "| what was checked | tried | failed | measured |"
+    yield "| --- | ---: | ---: | --- |"
+    for check, (tried, failed, date) in checks(root).items():
+        yield f"| {check} | {tried:,} | {failed:,} | {date} |"
+
+
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
-          CROWDS: crowd_table, ENGINES: engines_table}
+          CROWDS: crowd_table, ENGINES: engines_table, CHECKS: checks_table}
 
 
 def pass_through(root, scene, n, law="log"):
@@ -322,8 +366,8 @@ def soaked(root, method):
 
 
 def failures(root, check):
-    return next((int(row["failed"]), int(row["tried"])) for row in csv_rows(root, RELIABILITY)
-                if row["check"] == "random scenarios: " + check)
+    tried, failed, _ = checks(root)["random scenarios: " + check]
+    return (failed, tried)
 
 
 def unchanged(root, place):

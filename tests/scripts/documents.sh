@@ -76,6 +76,17 @@ check 1 "$work" --check
 check 0 "$work"
 grep -qx "${line/01,/02,}\." "$work/docs/findings.md" || fail "not fresh: $(grep Recorded "$work/docs/findings.md")"
 
+# Checks of a record take the place of the reference's, and the table says where they are from.
+record=$work/results/records/0123456789/metamorphic
+mkdir -p "$record"
+printf 'metamorphic: refined\t7000000\t3\n' >"$record/checks.tsv"
+printf '{\n"study": "metamorphic",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"sources_hash": "0"\n}\n' \
+    >"$record/study.json"
+check 0 "$work"
+grep -qx '| metamorphic: refined | 7,000,000 | 3 | 2027-03-02 |' "$work/docs/findings.md" || fail 'the table has no record of checks'
+grep -q '^Recorded: .*\[metamorphic\](../results/records/0123456789/metamorphic)' "$work/docs/findings.md" ||
+    fail "no heading: $(grep Recorded: "$work/docs/findings.md")"
+
 # What cannot be read is said, and nothing is written.
 rm "$work/results/reference/summary.json"
 check 4 "$work"
