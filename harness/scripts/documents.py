@@ -24,6 +24,7 @@ CLAIMS = "claims/claims.json"
 BODIES = "bodies/bodies.csv"
 CROWDS = "bodies/characters-summary.csv"
 ENGINES = "engines/summary.csv"
+EXTREMES = "extremes/extremes.json"
 CHECKS = "checks"
 RACES = "reference/races.csv"
 SOAK = "reference/soak.csv"
@@ -301,6 +302,19 @@ def claims_table(root):
         yield f"| {claim['id']}. {claim['claim']} | {claim['section']} | {claim['verdict']} | {values} |"
 
 
+def extremes_table(root):
+    """How many extremes each method answers rightly, and the figure that shows which not."""
+    methods = json.loads(file_of(root, EXTREMES).read_text())["methods"]
+    verdicts = list(methods[0]["verdicts"])
+    yield "| method | " + " | ".join(verdicts) + " |"
+    yield "| --- " + "| ---: " * len(verdicts) + "|"
+    for method in methods:
+        yield f"| `{method['name']}` | " + " | ".join(str(method["verdicts"][key]) for key in verdicts) + " |"
+    figure = file_of(root, "extremes/extremes.svg").relative_to(root)
+    yield ""
+    yield f"![Verdict on each method in each numerical extreme](../{figure})"
+
+
 @functools.cache
 def checks(root):
     """By name, how many cases were tried, how many failed, and when: of the records, or else of the reference."""
@@ -322,7 +336,8 @@ def checks_table(root):
 
 
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
-          CROWDS: crowd_table, ENGINES: engines_table, CHECKS: checks_table}
+          CROWDS: crowd_table, ENGINES: engines_table,
+          EXTREMES: extremes_table, CHECKS: checks_table}
 
 
 def pass_through(root, scene, n, law="log"):

@@ -1,5 +1,6 @@
 #include "harness/study/study_extremes.h"
 
+#include "core/method/impact_method.h"
 #include "harness/base/memory.h"
 #include "harness/study/extreme.h"
 #include "harness/figure/figures.h"
@@ -13,8 +14,8 @@
 #define METHODS_MAX 64
 
 /* Our own methods, none of which may be wrong. */
-static const char *const ours[] = {"particle-paper", "particle",    "certified",
-                                   "aabb-tree",      "brute-force", "hybrid-fcl"};
+static const char *const ours[] = {"particle-paper", "particle",  "certified",   "stream",
+                                   "auto",           "aabb-tree", "brute-force", "hybrid-fcl"};
 
 /* One letter for each verdict, as printed. */
 static const char letters[MOTE_EXTREME_VERDICTS + 1] = " .ixWNHC";
@@ -38,14 +39,22 @@ typedef struct study {
     size_t counts[METHODS_MAX][MOTE_EXTREME_VERDICTS];
 } study;
 
-/* only: the name of the one method; NULL: every method. */
+static bool answers_impacts_alone(const char *name)
+{
+    const mote_impact_method *impact = mote_impact_method_find(name);
+    return impact && impact->alone;
+}
+
+/* only: the name of the one method; NULL: every method that answers for distances or contacts.
+ */
 static void list_methods(study *s, const char *only)
 {
     for (size_t m = 0; mote_method_at(m) && s->method_count < METHODS_MAX; ++m) {
-        if (only && strcmp(mote_method_at(m)->name, only) != 0)
+        const char *name = mote_method_at(m)->name;
+        if (only ? strcmp(name, only) != 0 : answers_impacts_alone(name))
             continue;
         const size_t i = s->method_count++;
-        s->method[i] = mote_method_at(m)->name;
+        s->method[i] = name;
         for (size_t k = 0; k < sizeof ours / sizeof ours[0]; ++k)
             s->is_ours[i] = s->is_ours[i] || strcmp(ours[k], s->method[i]) == 0;
     }

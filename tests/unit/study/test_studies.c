@@ -224,6 +224,8 @@ TEST(extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number)
     planted.others_verdict = MOTE_EXTREME_REFUSED;
     assert_true(extremes_met());
     assert_true(text_has("extremes.csv", "planted, as refused"));
+    assert_true(text_has("extremes.csv", ",stream,"));
+    assert_false(text_has("extremes.csv", ",impact-sampled,")); /* would refuse every scene */
     planted.ours_verdict = MOTE_EXTREME_WRONG;
     assert_false(extremes_met());
     assert_true(text_has("extremes.md", "| certified | "));
