@@ -44,6 +44,7 @@ def file_of(root, source):
     return (record_of(root, source) or root / "results" / "reference") / Path(source).name
 
 
+@functools.cache
 def has_changed(root, study):
     """Whether the sources of a recorded study have; None without the repository that tells."""
     listed = subprocess.run(
