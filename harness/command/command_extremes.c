@@ -2,6 +2,8 @@
    degenerate numbers. */
 #include "harness/command/command.h"
 #include "core/method/method.h"
+#include "harness/base/file.h"
+#include "harness/process/manifest.h"
 #include "harness/study/extreme.h"
 #include "harness/study/study_extremes.h"
 
@@ -63,6 +65,19 @@ static mote_status check_names(const mote_extremes_wish *wish)
                : MOTE_OK;
 }
 
+static mote_status study(const request *q, int argc, char **argv, bool *met)
+{
+    uint64_t program = 0;
+    mote_status status = check_names(&q->wish);
+    if (status == MOTE_OK)
+        status = mote_directory_make(q->directory);
+    if (status == MOTE_OK)
+        status = mote_program_hash(&program);
+    if (status == MOTE_OK)
+        status = mote_manifest_write(q->directory, program, 0, argc, argv);
+    return status == MOTE_OK ? mote_study_extremes(q->directory, &q->wish, met) : status;
+}
+
 int mote_command_extremes(int argc, char **argv)
 {
     request q = {.directory = "results/extremes"};
@@ -70,8 +85,7 @@ int mote_command_extremes(int argc, char **argv)
     if (understood != MOTE_EXIT_DONE)
         return understood;
     bool met = false;
-    if (check_names(&q.wish) != MOTE_OK ||
-        mote_study_extremes(q.directory, &q.wish, &met) != MOTE_OK)
+    if (study(&q, argc, argv, &met) != MOTE_OK)
         return mote_command_fail();
     return mote_command_finish(met ? MOTE_EXIT_DONE : MOTE_EXIT_CHECK_FAILED);
 }
