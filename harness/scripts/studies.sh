@@ -138,7 +138,8 @@ is_late() {
     [ -n "$hours" ] && awk -v h="$hours" -v s=$(($(date +%s) - began)) -v m="$minutes" 'BEGIN { exit !(s / 3600 + m / 60 > h) }'
 }
 run_part() { # PART
-    local out=$work/$name/part-$1 status=0 start
+    local out=$work/$name/part-$1 status=0 start load
+    local log=$out.log # not within OUT, which a command may empty
     [ ! -e "$out/.passed" ] || return 0
     ! is_late || return 75
     if [ "$place" = alone ] && [ -z "${BUSY:-}" ] && ! is_quiet; then
@@ -149,12 +150,15 @@ run_part() { # PART
     echo "record: $name, part $1 of $parts" >&2
     local polite=
     [ "$place" = alone ] || polite="nice -n 19"
-    cut -d ' ' -f 1 /proc/loadavg >"$out/.load"
-    OUT=$out PART=$1 $polite sh -c "$command" >"$out/log.txt" 2>&1 || status=$?
+    load=$(cut -d ' ' -f 1 /proc/loadavg)
+    OUT=$out PART=$1 $polite sh -c "$command" >"$log" 2>&1 || status=$?
     if [ "$status" -ge 126 ]; then # not found, or ended by a signal
-        tail -3 "$out/log.txt" >&2
-        fail "$name was ended (status $status): $out/log.txt; \`make record\` goes on there"
+        tail -3 "$log" >&2
+        fail "$name was ended (status $status): $log; \`make record\` goes on there"
     fi
+    mkdir -p "$out"
+    mv "$log" "$out/log.txt"
+    echo "$load" >"$out/.load"
     echo $(($(date +%s) - start)) >"$out/.seconds"
     echo "$status" >"$out/.status"
     if [ "$status" = 0 ]; then

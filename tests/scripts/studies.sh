@@ -34,6 +34,8 @@ cat >"$work/run" <<'RUN'
 echo "$1 $PART" >>"$(dirname "$0")/calls"
 [ ! -e "$(dirname "$0")/kill" ] || [ "$PART" != 2 ] || kill -9 $$
 [ ! -e "$(dirname "$0")/fail" ] || exit 1
+rm -rf "$OUT" # as some commands do with their folder
+mkdir -p "$OUT"
 printf 'a, b\t10\t0\nc\t%s\t1\n' "$PART" >"$OUT/checks.tsv"
 echo "$1 \"$PART\"" >"$OUT/sum.csv"
 mkdir -p "$OUT/figures"
