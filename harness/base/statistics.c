@@ -119,7 +119,9 @@ typedef struct resample {
     double *profile;   /* [frames], the median over the processes */
     double *residuals; /* a value divided by (or minus) its frame's profile */
     double *drawn;     /* [count * frames] */
+    double *near;      /* [count * frames], those of drawn within the bracket */
     double *medians;   /* [RESAMPLES] */
+    double low, high;  /* the bracket, in which medians are to be expected */
 } resample;
 
 static void make_resample(const mote_replicate *replicates, size_t count, bool logarithmic,
@@ -129,10 +131,11 @@ static void make_resample(const mote_replicate *replicates, size_t count, bool l
     s->count = count;
     s->frames = frames;
     s->logarithmic = logarithmic;
-    s->profile = mote_allocate(frames + 2 * all + RESAMPLES, sizeof *s->profile);
+    s->profile = mote_allocate(frames + 3 * all + RESAMPLES, sizeof *s->profile);
     s->residuals = s->profile + frames;
     s->drawn = s->residuals + all;
-    s->medians = s->drawn + all;
+    s->near = s->drawn + all;
+    s->medians = s->near + all;
     for (size_t k = 0; k < frames; ++k) {
         for (size_t r = 0; r < count; ++r)
             s->drawn[r] = replicates[r].values[k];
@@ -145,19 +148,70 @@ static void make_resample(const mote_replicate *replicates, size_t count, bool l
     }
 }
 
+/* Draws the frames first .. first + count - 1 of a process, from residuals in a row. */
+static void draw_frames(const resample *s, size_t first, size_t count,
+                        const double *restrict residuals, double *restrict to)
+{
+    const double *restrict profile = s->profile + first;
+    to += first;
+    if (s->logarithmic) {
+        for (size_t i = 0; i < count; ++i)
+            to[i] = profile[i] * residuals[i];
+    } else {
+        for (size_t i = 0; i < count; ++i)
+            to[i] = profile[i] + residuals[i];
+    }
+}
+
 /* Draws one process: the profile of the frames plus blocks of consecutive residuals (wrapping
    around the end), which preserve the dependence of neighbouring frames. */
 static void draw_process(gsl_rng *random, const resample *s, double *to)
 {
     const double *from = s->residuals + gsl_rng_uniform_int(random, s->count) * s->frames;
-    size_t block = (size_t)ceil(sqrt((double)s->frames));
-    for (size_t k = 0; k < s->frames;) {
-        size_t start = gsl_rng_uniform_int(random, s->frames);
-        for (size_t i = 0; i < block && k < s->frames; ++i, ++k) {
-            double residual = from[(start + i) % s->frames];
-            to[k] = s->logarithmic ? s->profile[k] * residual : s->profile[k] + residual;
-        }
+    const size_t block = (size_t)ceil(sqrt((double)s->frames));
+    for (size_t k = 0; k < s->frames; k += block) {
+        const size_t start = gsl_rng_uniform_int(random, s->frames);
+        const size_t wanted = k + block < s->frames ? block : s->frames - k;
+        const size_t before_end = wanted < s->frames - start ? wanted : s->frames - start;
+        draw_frames(s, k, before_end, from + start, to);
+        draw_frames(s, k + before_end, wanted - before_end, from, to);
     }
+}
+
+/* Gathers the drawn values within the bracket; returns how many, and how many lie below. */
+static size_t gather_near(const resample *s, size_t *below)
+{
+    const double *restrict drawn = s->drawn;
+    double *restrict near = s->near;
+    const double low = s->low, high = s->high;
+    size_t under = 0, count = 0;
+    for (size_t i = 0; i < s->count * s->frames; ++i) {
+        const double value = drawn[i];
+        near[count] = value;
+        under += value < low;
+        count += (value >= low) & (value <= high);
+    }
+    *below = under;
+    return count;
+}
+
+/* The median of the drawn values. While it lies in the bracket, the values outside are only
+   counted; otherwise the bracket grows. */
+static double drawn_median(resample *s)
+{
+    const size_t all = s->count * s->frames;
+    size_t below;
+    const size_t near = gather_near(s, &below);
+    const size_t left = (all - 1) / 2, right = all / 2;
+    if (below <= left && right < below + near) {
+        const double first = gsl_stats_select(s->near, 1, near, left - below);
+        const double last = gsl_stats_select(s->near, 1, near, right - below);
+        return (first + last) / 2;
+    }
+    const double median = mote_statistics_median(s->drawn, all);
+    s->low = median < s->low ? median : s->low;
+    s->high = median > s->high ? median : s->high;
+    return median;
 }
 
 /* GSL's errors are returned, except that running out of memory ends the program. */
@@ -188,12 +242,12 @@ static mote_confidence bootstrap(const mote_replicate *replicates, size_t count,
                                  bool logarithmic, uint64_t seed)
 {
     gsl_rng *random = make_generator(seed);
-    resample s = {0};
+    resample s = {.low = INFINITY, .high = -INFINITY};
     make_resample(replicates, count, logarithmic, &s);
     for (size_t k = 0; k < RESAMPLES; ++k) {
         for (size_t r = 0; r < count; ++r)
             draw_process(random, &s, s.drawn + r * s.frames);
-        s.medians[k] = mote_statistics_median(s.drawn, count * s.frames);
+        s.medians[k] = drawn_median(&s);
     }
     mote_statistics_sort(s.medians, RESAMPLES);
     const mote_confidence interval = percentiles(s.medians, RESAMPLES);

@@ -47,6 +47,9 @@ const mote_option mote_options_run[] = {
     {"progress", "SECONDS",
      "if stderr is not a terminal: seconds between two lines of progress (default: 0, a line "
      "after each cell)"},
+    {"no-summary", NULL,
+     "only measure, for many runs into one directory; then `mote summarize DIR` (default: "
+     "write summary.json and print the rows)"},
     {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
     {"pairs", "all|contacts",
      "which near pairs of more than two bodies are kept in cells/ID.pairs.csv (default: all)"},
@@ -76,6 +79,7 @@ enum {
     OPTION_UNTIL_CI,
     OPTION_BUDGET,
     OPTION_PROGRESS,
+    OPTION_NO_SUMMARY,
     OPTION_STRICT,
     OPTION_PAIRS,
     OPTION_PAIR, /* one of the scenarios; parsed separately because it takes two values */
@@ -97,6 +101,7 @@ typedef struct request {
     const char *pair_files[2], *direction; /* of --pair and --direction, or NULL */
     char *pair;                            /* name of the scenario from these, or NULL */
     double until_share;                    /* from --until-ci; 0: not given */
+    bool no_summary;
     mote_choices choices;
     mote_choices scene_choices;  /* for scenarios of more than two bodies */
     mote_choices impact_choices; /* for those that ask for impacts */
@@ -205,6 +210,9 @@ static bool set_option(request *q, int option, const char *value, const char **e
     case OPTION_PROGRESS:
         *expected = "seconds";
         return mote_read_real(value, 0, 1e9, &q->run.progress);
+    case OPTION_NO_SUMMARY:
+        q->no_summary = true;
+        return true;
     case OPTION_STRICT:
         mote_mesh_import_strictly();
         return true;
@@ -358,7 +366,7 @@ static int execute(request *q)
     }
     if (q->run.dry_run)
         return MOTE_EXIT_DONE;
-    int code = report(q->run.directory);
+    int code = q->no_summary ? MOTE_EXIT_DONE : report(q->run.directory);
     if (code == MOTE_EXIT_DONE && outcome.failed > 0) {
         (void)fprintf(stderr, "mote: %zu of %zu cells failed; see their reason in %s/cells\n",
                       outcome.failed, outcome.cells, q->run.directory);

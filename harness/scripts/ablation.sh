@@ -19,7 +19,7 @@ esac
 
 # A failed cell (5) is a row; it does not end the run.
 status=0
-"$mote" run "$@" --out "$out" \
+"$mote" run "$@" --out "$out" --no-summary \
     --method 'certified:seed=witness|pair|none|tracked' \
     --method 'certified:width=4|2' \
     --method 'certified:fits=constant' \

@@ -29,7 +29,7 @@ esac
 failed=0
 measure() {
     status=0
-    "$mote" run "$@" --replicates $replicates --out "$out" >/dev/null || status=$?
+    "$mote" run "$@" --replicates $replicates --out "$out" --no-summary >/dev/null || status=$?
     case $status in
     0) ;;
     5) failed=5 ;;

@@ -92,5 +92,6 @@ measure letters --replicates $replicates $(frames letters) --method certified \
     --method 'fcl-aabb:refit=near|every' --method 'aabb-tree:refit=near|every' \
     --method 'particle:n=3|8|16' --method 'particle-paper:n=3|8|16,refine=no|near,start=random|fps'
 
+"$mote" summarize "$out" --format csv >/dev/null # writes summary.json and summary.csv, too
 "$mote" tune "$out"
 exit $failed

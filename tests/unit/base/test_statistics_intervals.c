@@ -3,6 +3,9 @@
 #include "harness/base/statistics.h"
 #include "tests/support/test.h"
 
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -270,6 +273,72 @@ TEST(median_interval_of_processes_alike_is_a_point)
         interval = mote_statistics_median_interval(replicates, PROCESSES, logarithmic == 1, 3);
         assert_near(interval.low, 3, 1e-12); /* 3 and 6: five of nine frames are 3 */
         assert_near(interval.high, 3, 1e-12);
+    }
+}
+
+/* The same resampling without any haste: every block frame by frame, every median of all
+ * values. */
+static mote_confidence slow_interval(const mote_replicate *replicates, size_t count,
+                                     bool logarithmic, unsigned long seed)
+{
+    enum { RESAMPLES = 1000, MOST = 4000 };
+    static double profile[MOST], drawn[MOST], medians[RESAMPLES];
+    const size_t frames = replicates[0].count, block = (size_t)ceil(sqrt((double)frames));
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, seed);
+    for (size_t k = 0; k < frames; ++k) {
+        for (size_t r = 0; r < count; ++r)
+            drawn[r] = replicates[r].values[k];
+        profile[k] = gsl_stats_median(drawn, 1, count);
+    }
+    for (size_t i = 0; i < RESAMPLES; ++i) {
+        for (size_t r = 0; r < count; ++r) {
+            const double *from = replicates[gsl_rng_uniform_int(random, count)].values;
+            size_t start = 0;
+            for (size_t k = 0; k < frames; ++k) {
+                if (k % block == 0)
+                    start = gsl_rng_uniform_int(random, frames);
+                const size_t at = (start + k % block) % frames;
+                drawn[r * frames + k] = logarithmic ? profile[k] * (from[at] / profile[at])
+                                                    : profile[k] + (from[at] - profile[at]);
+            }
+        }
+        medians[i] = gsl_stats_median(drawn, 1, count * frames);
+    }
+    gsl_rng_free(random);
+    gsl_sort(medians, 1, RESAMPLES);
+    const mote_confidence interval = {
+        gsl_stats_quantile_from_sorted_data(medians, 1, RESAMPLES, 0.025),
+        gsl_stats_quantile_from_sorted_data(medians, 1, RESAMPLES, 0.975)};
+    return interval;
+}
+
+/* Values without ties, with many, of two far levels, and of one level only; odd and even
+ * numbers of them. */
+TEST(median_interval_is_that_of_all_values_to_the_last_bit)
+{
+    enum { LONGEST = 301 };
+    static double values[PROCESSES][LONGEST];
+    static const size_t lengths[] = {1, 2, 3, 9, 16, 100, LONGEST};
+    unsigned state = 1;
+    for (size_t test = 0; test < 2 * 2 * 4 * COUNT(lengths); ++test) {
+        const size_t frames = lengths[test / 16], count = PROCESSES - test % 2;
+        const bool logarithmic = test / 2 % 2;
+        mote_replicate replicates[PROCESSES];
+        for (size_t r = 0; r < count; ++r) {
+            for (size_t k = 0; k < frames; ++k) {
+                state = state * 1664525u + 1013904223u;
+                const double free = 1 + state / 4294967296.0;
+                const double kinds[] = {free, floor(4 * free), free + (state >> 31) * 1000.0,
+                                        5};
+                values[r][k] = kinds[test / 4 % 4];
+            }
+            replicates[r] = (mote_replicate){values[r], frames};
+        }
+        const mote_confidence quick =
+            mote_statistics_median_interval(replicates, count, logarithmic, test);
+        const mote_confidence slow = slow_interval(replicates, count, logarithmic, test);
+        assert_memory_equal(&quick, &slow, sizeof quick);
     }
 }
 

@@ -222,6 +222,17 @@ TEST(command_list_names_what_there_is)
     assert_non_null(strstr(said, "mote check SCENARIO"));
 }
 
+TEST(command_run_without_summary_leaves_it_to_summarize)
+{
+    assert_int_equal(
+        mote("run s.json --method aabb-tree --replicates 1 --out later --no-summary"), 0);
+    assert_null(strstr(said, ", caches hot"));
+    assert_int_equal(folder_count("later/cells", ".json"), 1);
+    assert_false(file_exists("later/summary.json"));
+    assert_int_equal(mote("summarize later"), 0);
+    assert_true(file_exists("later/summary.json"));
+}
+
 TEST(command_letter_writes_that_many_triangles)
 {
     assert_int_equal(mote("letter V --triangles 500 -o V.obj"), 0);
