@@ -8,6 +8,7 @@ set -eu
 mote=$1
 profile=$2
 out=$3
+. "$(dirname "$0")/measure.sh"
 
 case $profile in
 quick)
@@ -24,22 +25,9 @@ paper | full)
     ;;
 esac
 
-# measure ARGUMENT...: one mote run; a failed cell (5) is a row of the table and does not end the
-# script.
-failed=0
-measure() {
-    status=0
-    "$mote" run "$@" --replicates $replicates --out "$out" --no-summary >/dev/null || status=$?
-    case $status in
-    0) ;;
-    5) failed=5 ;;
-    *) exit "$status" ;;
-    esac
-}
-
 for scenarios in "$small" "$large"; do
     # shellcheck disable=SC2086 # words
-    measure $scenarios \
+    measure $scenarios --replicates $replicates \
         --method 'particle:n=8,positions=lazy|given' \
         --method 'particle:n=0' \
         --method 'particle:n=8,refine=1' \
@@ -58,13 +46,13 @@ done
 tuned=fcl-aabb:seed=previous,queue=64
 for scenarios in ww "$large"; do
     # shellcheck disable=SC2086
-    measure $scenarios --method $tuned --method aabb-tree
+    measure $scenarios --replicates $replicates --method $tuned --method aabb-tree
 done
 for scenarios in "$evicted" "$large"; do
     # shellcheck disable=SC2086
-    measure $scenarios --cache evict --method $tuned --method aabb-tree --method particle:n=8
+    measure $scenarios --replicates $replicates --cache evict --method $tuned --method aabb-tree --method particle:n=8
 done
 "$mote" summarize "$out" --format table | tee "$out/ingredients.txt"
 "$mote" figures "$out" >/dev/null
 "$mote" report "$out"
-exit "$failed"
+exit $failed
