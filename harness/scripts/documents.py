@@ -146,6 +146,11 @@ def percent(share):
     return f"{value + 1e-9:.0f}" if round(value, 1) >= 10 else f"{value:.1f}"
 
 
+def exact_text(share):
+    """100 % or 57.5 %."""
+    return f"{100 * share:.1f}".removesuffix(".0") + " %"
+
+
 def reference_table(root):
     rows = summary(root)
     shown = (
@@ -163,9 +168,8 @@ def reference_table(root):
         time, ratio, error = row["total_ns"], row["ratio"], row["error"]
         times = interval(*(time[key] / 1e3 for key in ("median", "ci_low", "ci_high")))
         faster = "1" if label == "fcl-aabb" else interval(ratio["value"], ratio["ci_low"], ratio["ci_high"])
-        exact = f"{100 * error['exact_rate']:.1f}".removesuffix(".0") + " %"
         largest = f"{error['max']:.2g} L" if error["max"] > 1e-9 else "0"
-        yield (f"| `{label}`: {what} | {times} | {faster} | {exact} | {largest} | {row['missed']:g} | "
+        yield (f"| `{label}`: {what} | {times} | {faster} | {exact_text(error['exact_rate'])} | {largest} | {row['missed']:g} | "
                f"{size(row['heap_live_bytes'])} |")
 
 
@@ -254,11 +258,14 @@ def gains(root, options):
 OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
 
 
+def verdicts_right(row):
+    return float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0
+
+
 def answers_of(root, scenario):
     """The finished rows of a scenario in the run of all engines that have no wrong verdict."""
     return [row for row in csv_rows(root, ENGINES)
-            if row["scenario"] == scenario and row["status"] == "ok"
-            and float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0]
+            if row["scenario"] == scenario and row["status"] == "ok" and verdicts_right(row)]
 
 
 ENGINE_SCENES = (("ww", "ww, distance"), ("mv", "mv, distance"), ("tt-distance", "tt, distance"), ("ww-contact", "ww, contact"),
@@ -308,9 +315,13 @@ def frames_of(row):
 
 
 def accuracy(row):
-    """Exact answers in per cent, and missed of all contacts."""
-    exact = f"{100 * float(row['exact_rate']):.1f}".removesuffix(".0")
-    return f"{exact} %, {float(row['missed']):.3g} of {float(row['contacts']):.3g}"
+    """The share of exact answers, missed contacts, and all contacts."""
+    return tuple(float(row[key]) for key in ("exact_rate", "missed", "contacts"))
+
+
+def accuracy_text(row):
+    exact, missed, contacts = accuracy(row)
+    return f"{exact_text(exact)}, {missed:.3g} of {contacts:.3g}"
 
 
 def pairs_table(root):
@@ -326,7 +337,7 @@ def pairs_table(root):
             row = rows.get((scenario, label))
             cells.append(digits(float(row["total_ns_median"]) / median) if row else "–")
             if label != "aabb-tree":
-                cells.append(accuracy(row) if row else "refused")
+                cells.append(accuracy_text(row) if row else "refused")
         yield f"| {' | '.join(cells)} |"
     figure = file_of(root, "bench/size-time.svg").relative_to(root)
     yield ""
@@ -414,10 +425,13 @@ def worst_reports(root, others=False):
     return (max(int(row["delay_max"]) for row in rows), max(float(row["max_penetration_unreported"]) for row in rows))
 
 
+def span(values):
+    return (min(values), max(values))
+
+
 def query_times(root, *methods):
     """The least and the largest time of a frame of the paper's scenes, in microseconds."""
-    times = [float(row["query_ns"]) / 1e3 for row in loops(root, methods)]
-    return (min(times), max(times))
+    return span([float(row["query_ns"]) / 1e3 for row in loops(root, methods)])
 
 
 @functools.cache
@@ -458,6 +472,7 @@ def times_of_particles(root, scenario):
     return exact / paper
 
 
+# Where the paper's method with eight particles answers, too.
 LETTER_SCENES = ("mv", "tw", "twist", "vv", "ww", "ww-1k", "ww-10k", "ww-100k", "ww-1m", "ww-10m")
 CHARACTER_SCENES = ("hands", "jumper-20k", "jumper-80k", "jumper-330k", "jumper-near-20k", "jumper-near-330k")
 
@@ -465,29 +480,25 @@ CHARACTER_SCENES = ("hands", "jumper-20k", "jumper-80k", "jumper-330k", "jumper-
 def exactness(root, scenario, label):
     """Frames of the full bench, and per cent of them that are exact."""
     row = pairs(root)[scenario, label]
-    return (int(row["frames"]), 100 * float(row["exact_rate"]))
+    return (int(row["frames"]), 100 * accuracy(row)[0])
 
 
-def failing(root, scenario, label="particle:n=8"):
-    """Per cent of frames that are exact, missed contacts, and all contacts."""
-    row = pairs(root)[scenario, label]
-    return (100 * float(row["exact_rate"]), float(row["missed"]), float(row["contacts"]))
+def tracked(root, scenario):
+    """What the tracked particles did in the full bench: per cent of exact frames, missed contacts, and all contacts."""
+    exact, missed, contacts = accuracy(pairs(root)[scenario, "particle:n=8"])
+    return (100 * exact, missed, contacts)
 
 
-def exact_on_letters(root):
-    return [failing(root, scenario)[0] for scenario in LETTER_SCENES]
-
-
-def contacts_of_letters(root):
-    """Missed by the tracked particles, and all."""
-    return [sum(failing(root, scenario)[k] for scenario in LETTER_SCENES) for k in (1, 2)]
+def tracked_on_letters(root):
+    """The least and the largest percentage of exact frames, missed contacts, and all contacts."""
+    exact, missed, contacts = zip(*(tracked(root, scenario) for scenario in LETTER_SCENES))
+    return (*span(exact), sum(missed), sum(contacts))
 
 
 def wrong_rows(root):
     """Of the rows of the full bench by exact methods, ours and others': how many, and how many have a wrong answer."""
     rows = [row for row in csv_rows(root, BENCH) if row["status"] == "ok" and not row["method"].startswith("particle")]
-    wrong = [row for row in rows
-             if float(row["exact_rate"] or 1) < 1 or float(row["missed"] or 0) + float(row["false_contacts"] or 0) > 0]
+    wrong = [row for row in rows if float(row["exact_rate"] or 1) < 1 or not verdicts_right(row)]
     return (len(rows), len(wrong))
 
 
@@ -501,10 +512,6 @@ def slower_eights(root):
     """On how many scenes of the table the paper's method takes longer than the exact query, and of how many."""
     scenarios = {scenario for scenario, label in pairs(root) if label == "particle-paper:n=8"} - set(NOT_AMONG_PAIRS)
     return (sum(time < 1 for time in times_of_eight(root, scenarios)), len(scenarios))
-
-
-def span(values):
-    return (min(values), max(values))
 
 
 # Document, sentence with places for values, and the values.
@@ -525,13 +532,13 @@ SENTENCES = [
     ("docs/findings.md", "of all {:,} frames it is {:.1f} %", lambda root: (
         exactness(root, "ww", "particle-paper:n=5,start=fps"))),
     ("docs/findings.md", "exact in {:.0f} % of frames on `comb`, {:.0f} of {:.0f} contacts missed; in {:.0f} % on `jumper-330k`, "
-     "{:.0f} of {:.0f} missed", lambda root: (*failing(root, "comb"), *failing(root, "jumper-330k"))),
+     "{:.0f} of {:.0f} missed", lambda root: (*tracked(root, "comb"), *tracked(root, "jumper-330k"))),
     ("docs/findings.md", "on `comb` it is exact in {:.0f} % of the frames and misses {:.0f} of {:.0f} contacts, on `spider` in "
-     "{:.0f} % ({:.0f} of {:.0f} missed)", lambda root: (*failing(root, "comb"), *failing(root, "spider"))),
+     "{:.0f} % ({:.0f} of {:.0f} missed)", lambda root: (*tracked(root, "comb"), *tracked(root, "spider"))),
     ("docs/findings.md", "they miss contacts: {:.0f} of {:.0f} on `comb`, {:.0f} of {:.0f} of a character (`jumper-330k`)",
-     lambda root: (*failing(root, "comb")[1:], *failing(root, "jumper-330k")[1:])),
+     lambda root: (*tracked(root, "comb")[1:], *tracked(root, "jumper-330k")[1:])),
     ("docs/findings.md", "exact in {:.1f} to {:.0f} % of the frames on the letters and misses {:.0f} of their {:,.0f} contacts",
-     lambda root: (min(exact_on_letters(root)), max(exact_on_letters(root)), *contacts_of_letters(root))),
+     tracked_on_letters),
     ("docs/findings.md", "Of the {} rows of `certified`, `aabb-tree` and the engines of others in this run, {} have a distance that is "
      "not exact or a wrong verdict", wrong_rows),
     ("docs/findings.md", "with 8 particles it takes longer than `certified` on {} of {} scenes", slower_eights),

@@ -277,7 +277,7 @@ TEST(median_interval_of_processes_alike_is_a_point)
 }
 
 /* The same resampling without any haste: every block frame by frame, every median of all
- * values. */
+   values. */
 static mote_confidence slow_interval(const mote_replicate *replicates, size_t count,
                                      bool logarithmic, unsigned long seed)
 {
@@ -314,7 +314,7 @@ static mote_confidence slow_interval(const mote_replicate *replicates, size_t co
 }
 
 /* Values without ties, with many, of two far levels, and of one level only; odd and even
- * numbers of them. */
+   numbers of them. */
 TEST(median_interval_is_that_of_all_values_to_the_last_bit)
 {
     enum { LONGEST = 301 };
