@@ -335,11 +335,11 @@ report: build page
 STALE ?=
 LIST ?=
 BUSY ?=
-record: $(if $(LIST),,deps-test)
+record: $(if $(filter command,$(origin OUT)),,build) $(if $(LIST),,deps-test)
 ifeq ($(origin OUT),command line)
 	@harness/scripts/record.sh $(call quoted,$(OUT)) results/records
 else
-	@ONLY=$(call quoted,$(ONLY)) HOURS=$(call quoted,$(if $(filter file,$(origin HOURS)),,$(HOURS))) BUSY=$(BUSY) JOBS=$(JOBS) \
+	@ONLY=$(call quoted,$(ONLY)) HOURS=$(call quoted,$(if $(filter file,$(origin HOURS)),,$(HOURS))) BUSY=$(BUSY) JOBS=$(JOBS) PROGRAM=$(MOTE) \
 	    harness/scripts/studies.sh harness/scripts/studies.tsv results/records results/record $(if $(LIST),list) || \
 	    status=$$?; $(if $(LIST),,harness/scripts/documents.py . || status=$$?;) exit $${status:-0}
 endif
@@ -364,11 +364,11 @@ SOURCES = $(wildcard $(foreach folder,core baselines datasets harness tests cmak
 format: deps-lint
 	@clang-format --dry-run -Werror $(SOURCES)
 
-# clang-tidy stumbles over flags that only gcc knows; assertions tell its analyzer what holds. The
-# analyzer takes most of the time: by default it looks at core alone, and not at the rest.
+# clang-tidy stumbles over flags that only gcc knows; assertions tell its analyzer what holds. clang's own
+# warnings are errors. The analyzer takes most of the time: by default it looks at core alone, and not at the rest.
 DEEP ?= core
 REST = $(filter-out $(subst |, ,$(DEEP)),core baselines harness datasets)
-TIDY = run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint -extra-arg=-UNDEBUG \
+TIDY = run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint -extra-arg=-Werror -extra-arg=-UNDEBUG \
     -extra-arg=-include -extra-arg=$(CURDIR)/cmake/lint.h
 lint: format
 	@$(call configure,release)

@@ -242,7 +242,7 @@ static mote_confidence bootstrap(const mote_replicate *replicates, size_t count,
                                  bool logarithmic, uint64_t seed)
 {
     gsl_rng *random = make_generator(seed);
-    resample s = {.low = INFINITY, .high = -INFINITY};
+    resample s = {.low = HUGE_VAL, .high = -HUGE_VAL};
     make_resample(replicates, count, logarithmic, &s);
     for (size_t k = 0; k < RESAMPLES; ++k) {
         for (size_t r = 0; r < count; ++r)

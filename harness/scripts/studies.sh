@@ -6,10 +6,13 @@
 #   ONLY="NAME..."  these studies alone       HOURS=H  starts no part that would end later than in H hours
 #   BUSY=1          measures times although other programs run; the record has the load before it
 #   JOBS=N          so many parts at a time, where times do not matter
+#   PROGRAM=FILE    the program, built from this tree
 #
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
-# keeps of them), and all of its parts are in it and passed. Parts that passed are kept in WORK/STUDY,
-# and are not run again after an interruption, unless the sources have changed since.
+# keeps of them), and all of its parts are in it and passed. It stays fresh where C files alone have changed
+# and PROGRAM is still the recorded one to the last byte; studies that run programs of tests/ go by the
+# files alone. Parts that passed are kept in WORK/STUDY, and are not run again after an interruption, unless
+# the sources have changed since.
 set -euo pipefail
 table=$1 records=$2 work=$3 list=${4:-}
 unset MAKEFLAGS # the variables of this call are not those of the studies' own
@@ -25,6 +28,8 @@ if [ -z "$list" ] && [ -n "$(git status --porcelain -uno)" ]; then
     fail "there are changes that are not committed; commit them, so that the record can name its sources"
 fi
 commit=$(git rev-parse --short=10 HEAD)
+program=${PROGRAM:+$(git hash-object "$PROGRAM" | cut -c 1-16)}
+compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
@@ -47,18 +52,25 @@ newest() {
     done
     echo "$found"
 }
+has_these_sources() { # STUDY.JSON
+    [ "$(value "$1" sources_hash)" = "$hash" ] || [ "$(value "$1" same_program)" = "$hash" ]
+}
+has_this_program() { # STUDY.JSON CHANGED
+    [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ -n $2 && " $sources" != *" tests"* ]] &&
+        ! grep -qvE "$compiled" <<<"$2"
+}
 # Why the study is stale; nothing if it is fresh.
 staleness() {
-    local file parts_of old changed
+    local file parts_of old changed=''
     file=$(newest)
     if [ -z "$file" ]; then
         echo "never recorded"
         return
     fi
     parts_of=$(value "$file" parts_done) old=$(value "$file" commit)
-    if [ "$(value "$file" sources_hash)" != "$hash" ]; then
-        # shellcheck disable=SC2086 # a list of paths
-        changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
+    # shellcheck disable=SC2086 # a list of paths
+    has_these_sources "$file" || changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
+    if ! has_these_sources "$file" && ! has_this_program "$file" "$changed"; then
         if [ -z "$changed" ]; then
             echo "other sources than at $old"
         else
@@ -212,6 +224,7 @@ keep() {
   "failed": $failed,
   "sources": "$sources",
   "sources_hash": "$hash",
+  "program": "$program",
   "command": "${command//\"/\\\"}"
 }
 JSON
@@ -239,6 +252,16 @@ run_parts() {
     *) exit "$ended" ;;
     esac
 }
+# In fresh records whose files have changed: that the program of these files is the same.
+note_same_program() {
+    local file
+    while next_study; do
+        file=$(newest)
+        [ -z "$(staleness)" ] || continue
+        has_these_sources "$file" ||
+            sed -i -e '/^ *"same_program"/d' -e "s/^\( *\)\"sources_hash\".*/&\n\1\"same_program\": \"$hash\",/" "$file"
+    done
+}
 run_study() {
     [ -n "$(staleness)" ] || return 0
     if [ "$(cat "$work/$name/.sources" 2>/dev/null)" != "$hash" ]; then
@@ -252,7 +275,7 @@ run_study() {
 
 # Parts in the background do not hear Ctrl-C by themselves.
 trap 'trap "" TERM; kill 0; exit 130' INT TERM
-names='' late=''
+names='' late='' status=0
 if ! list_stale <"$table"; then
     [ -z "$list" ] || exit 1
     names=''
@@ -261,5 +284,7 @@ if ! list_stale <"$table"; then
     done 3<"$table"
     [ -z "$late" ] || echo "record: not finished within $hours h:$late" >&2
     names=''
-    list_stale <"$table"
+    list_stale <"$table" || status=1
 fi
+[ -n "$list" ] || note_same_program <"$table"
+exit $status

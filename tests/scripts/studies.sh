@@ -136,6 +136,42 @@ cp "$work/kept" "$work/run"
 JOBS=3 run 0
 calls "sums 1,sums 2,sums 3,"
 
+step="C files have changed, and the program is the same"
+{
+    row program beside 1 1 core '*.csv' "\"$work/run\" program"
+    row tested beside 1 1 'core tests' '*.csv' "\"$work/run\" tested"
+} >>table.tsv
+mkdir -p tests harness/scripts
+echo 1 >tests/t.c
+echo binary >"$work/program"
+sed -i "s/^program\tbeside\t1\t1\tcore/& harness/" table.tsv
+echo 1 >harness/scripts/s.sh
+git add . && git commit -qm fifth
+PROGRAM=$work/program run 0
+calls "program 1,tested 1,"
+record=records/$(git rev-parse --short=10 HEAD)/program/study.json
+echo 4 >core/b.c
+git commit -qam sixth
+ONLY=program run 1 list
+says "core/b.c changed since"
+ONLY=program PROGRAM=$work/program run 0 list
+! grep -q same_program "$record" || fail "list writes into a record"
+ONLY="program tested" PROGRAM=$work/program run 0
+calls "tested 1,"
+ONLY=program run 0 list # as the record says now
+python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["same_program"]' "$record" || fail "$record"
+echo 2 >harness/scripts/s.sh
+git commit -qam seventh
+ONLY=program PROGRAM=$work/program run 1 list
+says "core/b.c and 1 more changed since"
+git revert -n HEAD && git commit -qm eighth
+ONLY=program run 0 list
+echo 5 >core/b.c
+git commit -qam ninth
+echo other >"$work/program"
+ONLY=program PROGRAM=$work/program run 1 list
+says "core/b.c changed since"
+
 step="bad input"
 ONLY=sum run 2 list
 tells "no study sum; there are: sums pictures"
