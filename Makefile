@@ -13,7 +13,7 @@
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
 #   make auto [PROFILE=quick|full] [OUT=DIR]         auto beside certified and stream in every scenario
-#   make ratios [OUT=DIR] [AVX2=no] [RECORD=1]       stream's time to the box tree's and FCL's
+#   make ratios [OUT=DIR] [AVX2=no]                  stream's time to the box tree's and FCL's
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make oracle METHOD=NAME [PLUGIN=FILE.so]          any method's answers on frames, against exact ones
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
@@ -21,7 +21,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make characters [MODELS=DIR]                     which animated files are read as characters
-#   make character-speed [PROFILE=quick|full] [RECORD=1] [OUT=]  characters: certified, aabb-tree, FCL
+#   make character-speed [PROFILE=quick|full] [OUT=] characters: certified, aabb-tree, FCL
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
@@ -161,8 +161,7 @@ auto: build
 AVX2 ?= yes
 .PHONY: ratios
 ratios: build $(if $(filter yes,$(AVX2)),build-avx2)
-	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios) \
-	    $(if $(RECORD),docs/architecture.md)
+	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios)
 
 .PHONY: build-avx2
 build-avx2: deps
@@ -197,10 +196,8 @@ readers: program-readers deps-readers
 characters: program-characters deps-readers
 	@$(BUILD)/tests/characters $(call quoted,$(MODELS))
 
-# RECORD=1: into the page of characters.
 character-speed: build
-	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed) \
-	    $(if $(RECORD),docs/characters.md)
+	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed)
 
 tune: build
 	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)

@@ -1,15 +1,14 @@
 #!/bin/sh
-# character_speed.sh MOTE PROFILE OUT [PAGE]: two characters near each other, certified beside aabb-tree and FCL,
+# character_speed.sh MOTE PROFILE OUT: two characters near each other, certified beside aabb-tree and FCL,
 # whose trees are built at rest and by sample poses. Prints a table, which OUT/characters.md keeps: of each
 # scenario, the median and 95th percentile of certified, the times of the faster tree of either kind as
 # multiples of it, and the bytes a vertex. A stopped run is continued. quick: the smallest size of both
 # characters in both scenes, 120 frames once; full: all sizes and the hands, all frames, three times. SCENARIOS names
-# others. PAGE (docs/characters.md) gets the table between its two lines of marks.
+# others.
 set -eu
 mote=$1
 profile=$2
 out=$3
-page=${4:-}
 . "$(dirname "$0")/measure.sh"
 
 case $profile in
@@ -69,9 +68,4 @@ done
                 ratio("fcl", k), slow[k, "fcl"] / 1000, bytes[k], error[k]
         }
     }' | tee "$out/characters.md"
-if [ -n "$page" ]; then
-    . "$(dirname "$0")/marked.sh"
-    MANIFEST=$out/manifest.json
-    put_marked "$out/characters.md" "$page" '<!-- make character-speed writes from here -->' '<!-- to here -->'
-fi
 exit "$failed"

@@ -1,12 +1,12 @@
 #!/bin/sh
-# ratios.sh MOTE MOTE_AVX2 OUT [PAGE]: how much less time method stream takes than aabb-tree:positions=given and than the
+# ratios.sh MOTE MOTE_AVX2 OUT: how much less time method stream takes than aabb-tree:positions=given and than the
 # fastest configuration of FCL, where all that is known is positions: letters W of 11,920 triangles with their vertices
 # in the mesh's order, as stream reads them (leaf), and in random order; the same with AVX2 only, where MOTE_AVX2, a
 # program compiled so, is not empty; of 100,000 and 1,000,000 triangles; cloths and banners of 12,000 and 100,000; twist, fast-100
 # and the three scenarios in which stream is least ahead. The methods take turns within a run; of each frame the least
 # time of all replicates counts, and of these the median (least.awk). Prints a line a case, and writes the same to
-# OUT/ratios.txt; ends with 5 where a case has no line. FCL is asked in a tenth of the frames. PAGE: a document that gets
-# the table of a whole run, between two lines of marks. ONLY: a pattern of cases' names. REPLICATES: of each (5).
+# OUT/ratios.txt; ends with 5 where a case has no line. FCL is asked in a tenth of the frames. ONLY: a pattern of cases'
+# names. REPLICATES: of each (5).
 set -eu
 ours=$1
 avx2=$2
@@ -79,11 +79,4 @@ done
 for name in twist fast-100 jump still fast-5; do
     ! wanted "$name" || compare "$name" "$ours" "$name"
 done
-if [ -n "${4-}" ] && [ -z "${ONLY-}" ] && [ $failed -eq 0 ]; then
-    . "$(dirname "$0")/marked.sh"
-    MANIFEST=$(find "$top" -maxdepth 2 -name manifest.json | sort | head -n 1)
-    awk 'NR == 1 { print "| case | stream, us a frame | aabb-tree | best FCL | to the tree | to FCL |\n| --- | ---: | ---: | ---: | ---: | ---: |" }
-        NR > 1 { printf "| %s | %s | %s | %s | %s | %s |\n", $1, $2, $3, $4, $5, $6 }' "$top/ratios.txt" >"$top/ratios.md"
-    put_marked "$top/ratios.md" "$4" '<!-- make ratios writes from here -->' '<!-- to here -->'
-fi
 exit $failed
