@@ -11,7 +11,10 @@ profile=$2
 out=$3
 . "$(dirname "$0")/measure.sh"
 
-names=$("$mote" list scenarios | grep -v ' Several bodies: \| several: ' | cut -d ' ' -f 1 | grep -e "${ONLY:-.}")
+names=$("$mote" list scenarios | grep -v ' Several bodies: \| several: ' | cut -d ' ' -f 1 | grep -e "${ONLY:-.}") || {
+    echo "auto.sh: ONLY=${ONLY-}: no scenario has such a name" >&2
+    exit 2
+}
 for name in $names; do
     case $profile:$name in
     *:ww-10m) continue ;;

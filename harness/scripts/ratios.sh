@@ -79,4 +79,8 @@ done
 for name in twist fast-100 jump still fast-5; do
     ! wanted "$name" || compare "$name" "$ours" "$name"
 done
+[ "$(wc -l <"$top/ratios.txt")" -gt 1 ] || {
+    echo "ratios.sh: ONLY=${ONLY-}: no case has such a name" >&2
+    exit 2
+}
 exit $failed

@@ -15,8 +15,9 @@
 # the sources have changed since.
 set -euo pipefail
 table=$1 records=$2 work=$3 list=${4:-}
-unset MAKEFLAGS # the variables of this call are not those of the studies' own
-hours=${HOURS:-} began=$(date +%s)
+only=${ONLY:-} hours=${HOURS:-} busy=${BUSY:-} jobs=${JOBS:-1} file_of_program=${PROGRAM:-} began=$(date +%s)
+# The variables of this call are not those of the studies' own, some of which have the same names.
+unset MAKEFLAGS ONLY HOURS BUSY JOBS PROGRAM
 
 fail() {
     echo "record: $1" >&2
@@ -28,7 +29,7 @@ if [ -z "$list" ] && [ -n "$(git status --porcelain -uno)" ]; then
     fail "there are changes that are not committed; commit them, so that the record can name its sources"
 fi
 commit=$(git rev-parse --short=10 HEAD)
-program=${PROGRAM:+$(git hash-object "$PROGRAM" | cut -c 1-16)}
+program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
 compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
@@ -93,7 +94,7 @@ next_study() {
             fail "$table: $name: write NAME, alone or beside, minutes and number of parts, sources, files and command"
         fi
         names="$names $name"
-        [ -z "${ONLY:-}" ] || [[ " $ONLY " = *" $name "* ]] || continue
+        [ -z "$only" ] || [[ " $only " = *" $name "* ]] || continue
         # shellcheck disable=SC2086 # a list of paths
         hash=$(hash_of $sources) || exit
         return 0
@@ -102,7 +103,7 @@ next_study() {
 }
 check_names() {
     local name
-    for name in ${ONLY:-}; do
+    for name in $only; do
         [[ "$names " = *" $name "* ]] || fail "no study $name; there are:$names" 2
     done
 }
@@ -154,7 +155,7 @@ run_part() { # PART
     local log=$out.log # not within OUT, which a command may empty
     [ ! -e "$out/.passed" ] || return 0
     ! is_late || return 75
-    if [ "$place" = alone ] && [ -z "${BUSY:-}" ] && ! is_quiet; then
+    if [ "$place" = alone ] && [ -z "$busy" ] && ! is_quiet; then
         fail "$name measures times, and other programs run; end them, or record them with BUSY=1"
     fi
     mkdir -p "$out"
@@ -235,7 +236,7 @@ JSON
 # Parts whose times do not matter run JOBS at a time.
 run_parts() {
     local part at_once=1 ended=0
-    [ "$place" = alone ] || at_once=${JOBS:-1}
+    [ "$place" = alone ] || at_once=$jobs
     for part in $(seq "$parts"); do
         run_part "$part" &
         while [ "$(jobs -rp | wc -l)" -ge "$at_once" ] && [ $ended = 0 ]; do

@@ -31,7 +31,7 @@ git add . && git commit -qm first
 # Each run is noted in calls; the file fail makes a study fail, and kill ends it as a signal does.
 cat >"$work/run" <<'RUN'
 #!/bin/sh
-echo "$1 $PART" >>"$(dirname "$0")/calls"
+echo "$1 $PART${ONLY+ with ONLY}${JOBS+ with JOBS}" >>"$(dirname "$0")/calls"
 [ ! -e "$(dirname "$0")/kill" ] || [ "$PART" != 2 ] || kill -9 $$
 [ ! -e "$(dirname "$0")/fail" ] || exit 1
 rm -rf "$OUT" # as some commands do with their folder
