@@ -405,6 +405,11 @@ def ingredients(root, label, scene="comb"):
     return (float(row["total_ns_median"]), 100 * exact, missed)
 
 
+def ingredients_figure(root):
+    figure = file_of(root, "ingredients/ingredients.svg").relative_to(root)
+    yield f"![What each part of the tracked particles brings on five scenes](../{figure})"
+
+
 def launches(root):
     """With eight launches a query: per cent of exact frames, missed contacts a run, and the time to that of none."""
     time, exact, missed = ingredients(root, "particle:n=8,launch=8")
@@ -487,7 +492,8 @@ def checks_table(root):
 
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
           CROWDS: crowd_table, ENGINES: engines_table, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
-          CHARACTERS: characters_table, ABLATION: ablation_table, CHECKS: checks_table}
+          CHARACTERS: characters_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
+          CHECKS: checks_table}
 
 
 def pass_through(root, scene, n, law="log"):
