@@ -52,11 +52,13 @@ def file_of(root, source):
 
 @functools.cache
 def has_changed(root, study):
-    """Whether the sources of a recorded study have; None without the repository that tells."""
+    """Whether the sources of a recorded study have changed since; None without the repository that tells."""
     listed = subprocess.run(
         ["bash", "harness/scripts/studies.sh", "harness/scripts/studies.tsv", "results/records", "results/record",
          "list"], cwd=root, env={**os.environ, "ONLY": study}, capture_output=True, text=True, check=False)
-    return None if listed.returncode > 1 else listed.returncode == 1
+    if listed.returncode > 1:
+        return None
+    return any(reason in listed.stdout for reason in (" changed since ", " other sources than "))
 
 
 def heading(root, source, old):
