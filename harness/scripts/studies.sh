@@ -57,27 +57,30 @@ has_these_sources() { # STUDY.JSON
     [ "$(value "$1" sources_hash)" = "$hash" ] || [ "$(value "$1" same_program)" = "$hash" ]
 }
 has_this_program() { # STUDY.JSON CHANGED
-    [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ -n $2 && " $sources" != *" tests"* ]] &&
+    [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ " $sources" != *" tests"* ]] &&
         ! grep -qvE "$compiled" <<<"$2"
 }
 # Why the study is stale; nothing if it is fresh.
 staleness() {
-    local file parts_of old changed=''
+    local file parts_of old changed
     file=$(newest)
     if [ -z "$file" ]; then
         echo "never recorded"
         return
     fi
     parts_of=$(value "$file" parts_done) old=$(value "$file" commit)
-    # shellcheck disable=SC2086 # a list of paths
-    has_these_sources "$file" || changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
-    if ! has_these_sources "$file" && ! has_this_program "$file" "$changed"; then
+    if ! has_these_sources "$file"; then
+        # shellcheck disable=SC2086 # a list of paths
+        changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
         if [ -z "$changed" ]; then
             echo "other sources than at $old"
-        else
+            return
+        elif ! has_this_program "$file" "$changed"; then
             echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
+            return
         fi
-    elif [ "$(value "$file" failed)" != 0 ]; then
+    fi
+    if [ "$(value "$file" failed)" != 0 ]; then
         echo "failed at $old: $(value "$file" failed) of $parts parts"
     elif [ "$parts_of" -lt "$parts" ]; then
         echo "$parts_of of $parts parts recorded, at $old"
