@@ -11,8 +11,9 @@
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
 # keeps of them), and all of its parts are in it and passed. It stays fresh where C files alone have changed
 # and PROGRAM is still the recorded one to the last byte; studies that run programs of tests/ go by the
-# files alone. Parts that passed are kept in WORK/STUDY, and are not run again after an interruption, unless
-# the sources have changed since.
+# files alone. The record is written after each part, and parts that passed are not run again after an
+# interruption, unless the sources have changed since: those in WORK/STUDY, or, where WORK has fewer (on
+# another machine, say), those of the newest record.
 set -euo pipefail
 table=$1 records=$2 work=$3 list=${4:-}
 only=${ONLY:-} hours=${HOURS:-} busy=${BUSY:-} jobs=${JOBS:-1} file_of_program=${PROGRAM:-} began=$(date +%s)
@@ -60,34 +61,45 @@ has_this_program() { # STUDY.JSON CHANGED
     [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ " $sources" != *" tests"* ]] &&
         ! grep -qvE "$compiled" <<<"$2"
 }
+# What the record exercised and is not so any more; nothing if all of it is.
+change_since() { # STUDY.JSON
+    local old changed
+    ! has_these_sources "$1" || return 0
+    old=$(value "$1" commit)
+    # shellcheck disable=SC2086 # a list of paths
+    changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
+    if [ -z "$changed" ]; then
+        echo "other sources than at $old"
+    elif ! has_this_program "$1" "$changed"; then
+        echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
+    fi
+}
 # Why the study is stale; nothing if it is fresh.
 staleness() {
-    local file parts_of old changed
+    local file parts_of failed change
     file=$(newest)
     if [ -z "$file" ]; then
         echo "never recorded"
         return
     fi
-    parts_of=$(value "$file" parts_done) old=$(value "$file" commit)
-    if ! has_these_sources "$file"; then
-        # shellcheck disable=SC2086 # a list of paths
-        changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
-        if [ -z "$changed" ]; then
-            echo "other sources than at $old"
-            return
-        elif ! has_this_program "$file" "$changed"; then
-            echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
-            return
-        fi
-    fi
-    if [ "$(value "$file" failed)" != 0 ]; then
-        echo "failed at $old: $(value "$file" failed) of $parts parts"
+    change=$(change_since "$file") parts_of=$(value "$file" parts_done) failed=$(value "$file" failed)
+    if [ -n "$change" ]; then
+        echo "$change"
+    elif [ "$failed" != 0 ]; then
+        echo "failed at $(value "$file" commit): $failed of $parts parts"
     elif [ "$parts_of" -lt "$parts" ]; then
-        echo "$parts_of of $parts parts recorded, at $old"
+        echo "$parts_of of $parts parts recorded, at $(value "$file" commit)"
     fi
 }
-parts_done() {
-    find "$work/$name" -maxdepth 2 -name .passed 2>/dev/null | wc -l
+# The parts that passed, by number.
+parts_passed() {
+    find "$work/$name" -mindepth 2 -maxdepth 2 -path '*/part-*/.passed' 2>/dev/null | sed -E 's/.*part-([0-9]+).*/\1/' | sort -n
+}
+# Those of a record that goes for these sources; none where a part failed, whose checks are in its sums.
+recorded_parts() { # STUDY.JSON
+    if [ -n "$1" ] && [ "$(value "$1" failed)" = 0 ] && [ -z "$(change_since "$1")" ]; then
+        value "$1" parts_passed | tr ' ' '\n'
+    fi
 }
 # Reads a line of the table into name, place, minutes, parts, sources, files, command and hash.
 next_study() {
@@ -116,7 +128,7 @@ list_stale() {
     while next_study; do
         why=$(staleness)
         [ -n "$why" ] || continue
-        left=$((minutes * (parts - $(current_parts))))
+        left=$((minutes * (parts - $(parts_that_stay))))
         total=$((total + left)) count=$((count + 1))
         printf '%-14s %6.1f h  %-7s %s\n' "$name" "$(awk -v m=$left 'BEGIN { print m / 60 }')" "$place" "$why"
     done
@@ -128,13 +140,46 @@ list_stale() {
     echo "$count stale, $(awk -v m=$total 'BEGIN { printf "%.1f", m / 60 }') h"
     return 1
 }
-# The parts that need not be run again: those in WORK of the same sources.
-current_parts() {
+# How many parts of these sources are in WORK.
+parts_in_work() {
     if [ "$(cat "$work/$name/.sources" 2>/dev/null)" = "$hash" ]; then
-        parts_done
+        parts_passed | wc -l
     else
         echo 0
     fi
+}
+# How many parts need not be run again.
+parts_that_stay() {
+    local here recorded
+    here=$(parts_in_work) recorded=$(recorded_parts "$(newest)" | wc -w)
+    echo $((here > recorded ? here : recorded))
+}
+# Makes one part, which counts as number 0, of those of a record.
+lay_back() { # STUDY.JSON FOLDER
+    cp -r "$(dirname "$1")" "$2"
+    value "$1" load_before >"$2/.load"
+    value "$1" seconds >"$2/.seconds"
+    echo 0 >"$2/.status"
+    echo "$(value "$1" continues) $(value "$1" commit)" | xargs >"$2/.continues"
+}
+# Makes WORK/STUDY one of these sources: as it is, from the record if that has more parts, or empty.
+prepare_work() {
+    local folder=${work:?}/$name record part parts_of_record here
+    record=$(newest) here=$(parts_in_work)
+    parts_of_record=$(recorded_parts "$record")
+    if [ "$(wc -w <<<"$parts_of_record")" -gt "$here" ]; then
+        rm -rf "$folder"
+        mkdir -p "$folder"
+        lay_back "$record" "$folder/part-0"
+        for part in $parts_of_record; do
+            mkdir "$folder/part-$part"
+            touch "$folder/part-$part/.passed"
+        done
+    elif [ "$(cat "$folder/.sources" 2>/dev/null)" != "$hash" ]; then
+        rm -rf "$folder"
+        mkdir -p "$folder"
+    fi
+    echo "$hash" >"$folder/.sources"
 }
 
 # Waits up to ten minutes until nothing else runs; "" if something still does.
@@ -156,12 +201,12 @@ is_late() {
 run_part() { # PART
     local out=$work/$name/part-$1 status=0 start load
     local log=$out.log # not within OUT, which a command may empty
-    [ ! -e "$out/.passed" ] || return 0
     ! is_late || return 75
     if [ "$place" = alone ] && [ -z "$busy" ] && ! is_quiet; then
         fail "$name measures times, and other programs run; end them, or record them with BUSY=1"
     fi
     mkdir -p "$out"
+    rm -f "$out/.status"
     start=$(date +%s)
     echo "record: $name, part $1 of $parts" >&2
     local polite=
@@ -203,28 +248,33 @@ keep_files() { # PART FOLDER
         done < <(compgen -G "$1/$pattern")
     done
 }
+# Writes the record of the parts that have ended, if there are any.
 keep() {
-    local folder=$records/$commit/$name part passed failed checks
+    local folder=$records/$commit/$name part passed failed checks folders
+    compgen -G "$work/$name/part-[1-9]*/.status" >/dev/null || return 0
+    mapfile -t folders < <(find "$work/$name" -mindepth 2 -maxdepth 2 -name .status -printf '%h\n' | sort -V)
     rm -rf "$folder.part"
     mkdir -p "$folder.part"
-    passed=$(parts_done)
-    failed=$(cat "$work/$name"/part-*/.status | awk '$1 != 0 { ++n } END { print n + 0 }')
-    for part in $(seq "$parts"); do # of one name the last part's file stays
-        keep_files "$work/$name/part-$part" "$folder.part"
+    for part in "${folders[@]}"; do # of one name the last part's file stays
+        keep_files "$part" "$folder.part"
     done
-    checks=("$work/$name"/part-*/checks.tsv)
-    [ ! -f "${checks[0]}" ] || sum_checks "${checks[@]}" >"$folder.part/checks.tsv"
+    passed=$(parts_passed | xargs)
+    failed=$(cat "${folders[@]/%//.status}" | awk '$1 != 0 { ++n } END { print n + 0 }')
+    mapfile -t checks < <(find "${folders[@]}" -maxdepth 1 -name checks.tsv)
+    [ ${#checks[@]} = 0 ] || sum_checks "${checks[@]}" >"$folder.part/checks.tsv"
     cat >"$folder.part/study.json" <<JSON
 {
   "study": "$name",
   "commit": "$commit",
+  "continues": "$(cat "$work/$name/part-0/.continues" 2>/dev/null)",
   "ended": "$(date -u +%Y-%m-%dT%H:%M:%S.%3NZ)",
   "machine": "$(processor), $(nproc) cores, $(uname -sr)",
   "place": "$place",
-  "load_before": $(sort -g "$work/$name"/part-*/.load | tail -1),
-  "seconds": $(cat "$work/$name"/part-*/.seconds | awk '{ s += $1 } END { print s + 0 }'),
+  "load_before": $(sort -g "${folders[@]/%//.load}" | tail -1),
+  "seconds": $(cat "${folders[@]/%//.seconds}" | awk '{ s += $1 } END { print s + 0 }'),
   "parts": $parts,
-  "parts_done": $passed,
+  "parts_done": $(wc -w <<<"$passed"),
+  "parts_passed": "$passed",
   "failed": $failed,
   "sources": "$sources",
   "sources_hash": "$hash",
@@ -234,22 +284,26 @@ keep() {
 JSON
     rm -rf "$folder"
     mv "$folder.part" "$folder"
-    echo "$folder: $passed of $parts parts passed, $failed failed"
+    echo "$folder: $(wc -w <<<"$passed") of $parts parts passed, $failed failed"
 }
 # Parts whose times do not matter run JOBS at a time.
 run_parts() {
-    local part at_once=1 ended=0
+    local part at_once=1 ended=0 pid pids=()
     [ "$place" = alone ] || at_once=$jobs
     for part in $(seq "$parts"); do
+        [ ! -e "$work/$name/part-$part/.passed" ] || continue
         run_part "$part" &
+        pids+=($!)
         while [ "$(jobs -rp | wc -l)" -ge "$at_once" ] && [ $ended = 0 ]; do
             wait -n || ended=$?
+            keep
         done
         [ $ended = 0 ] || break
     done
-    while [ -n "$(jobs -p)" ]; do
-        wait -n || ended=$?
+    for pid in "${pids[@]}"; do
+        wait "$pid" || ended=$?
     done
+    keep
     case $ended in
     0) ;;
     75) late="$late $name" ;;
@@ -268,13 +322,8 @@ note_same_program() {
 }
 run_study() {
     [ -n "$(staleness)" ] || return 0
-    if [ "$(cat "$work/$name/.sources" 2>/dev/null)" != "$hash" ]; then
-        rm -rf "${work:?}/$name"
-        mkdir -p "$work/$name"
-        echo "$hash" >"$work/$name/.sources"
-    fi
+    prepare_work
     run_parts
-    ! compgen -G "$work/$name/part-*/.status" >/dev/null || keep
 }
 
 # Parts in the background do not hear Ctrl-C by themselves.

@@ -110,6 +110,39 @@ tells "not finished within 0.5 h: pictures"
 HOURS=1.5 run 0
 calls "pictures 1,"
 
+step="parts of a record go on where WORK is lost"
+echo 9 >core/a.c
+git commit -qam "of parts"
+touch "$work/kill"
+run 4
+calls "sums 1,sums 2,"
+rm -r "$work/kill" work
+first=$(git rev-parse --short=10 HEAD)
+echo 1 >plots/d.gp
+git add . && git commit -qm "of other files"
+ONLY=sums run 1 list
+says "sums              1.0 h  beside  1 of 3 parts recorded, at $first"
+ONLY=sums run 0
+calls "sums 2,sums 3,"
+record=records/$(git rev-parse --short=10 HEAD)/sums
+[ "$(cat "$record/checks.tsv")" = "$(printf 'a, b\t30\t0\nc\t6\t3')" ] || fail "sums of checks"
+python3 -c 'import json, sys
+s = json.load(open(sys.argv[1]))
+assert s["parts_passed"] == "1 2 3" and s["parts_done"] == 3 and s["failed"] == 0 and s["continues"] == sys.argv[2]' \
+    "$record/study.json" "$first" || fail "study.json"
+run 0
+calls "pictures 1,"
+
+step="parts of a record with a failure are run again where WORK is lost"
+echo 10 >core/a.c
+git commit -qam "that fails"
+touch "$work/fail"
+ONLY=sums run 1
+calls "sums 1,sums 2,sums 3,"
+rm -r "$work/fail" work
+ONLY=sums run 0
+calls "sums 1,sums 2,sums 3,"
+
 step="parts at the same time, and stopped together"
 echo 3 >core/b.c
 git commit -qam fourth
