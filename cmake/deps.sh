@@ -37,9 +37,10 @@ locked() {
 
 # apt ARGUMENT...: apt-get, waiting while another process uses it. By itself it waits for the
 # lock of dpkg only; for the lock of its lists and archives it is called again, for ten minutes.
+# It does not name the servers that it asks, which would stand in the logs of studies otherwise.
 apt() {
     tries=60
-    until $run env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 \
+    until $run env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600 \
         -o Acquire::Retries=3 "$@" 2>"$errors"; do
         cat "$errors" >&2
         tries=$((tries - 1))
@@ -55,6 +56,7 @@ install() {
     # shellcheck disable=SC2086
     apt update && apt install -y --no-install-recommends $missing
 }
+echo "Installing$missing" >&2
 for wait in 10 30; do
     install && exit 0
     ! locked || exit 1

@@ -56,7 +56,7 @@ echo 0 >user
 
 try 0 '' one.txt two.txt whole.txt
 [ $status = 0 ] || fail "status $status"
-waits='-q -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3'
+waits='-qq -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3'
 printf '%s\n' "$waits update" \
     "$waits install -y --no-install-recommends missing1 removed missing2" >expected
 cmp -s calls expected || fail "another call of apt-get than expected"
