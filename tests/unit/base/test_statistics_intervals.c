@@ -122,6 +122,8 @@ TEST(welch_of_equal_variances_is_students_test)
     mote_difference back = mote_statistics_welch(b, 2, a, 2);
     assert_near(back.value, -5, 1e-15);
     assert_near(back.p, d.p, 1e-15);
+    const double small_a[] = {0.1, 0.3}, small_b[] = {0.6, 0.8};
+    assert_near(mote_statistics_welch(small_a, 2, small_b, 2).p, d.p, 1e-9);
 }
 
 TEST(welch_of_one_constant_side_has_the_freedom_of_the_other)
@@ -322,7 +324,7 @@ TEST(median_interval_is_that_of_all_values_to_the_last_bit)
     static const size_t lengths[] = {1, 2, 3, 9, 16, 100, LONGEST};
     unsigned state = 1;
     for (size_t test = 0; test < 2 * 2 * 4 * COUNT(lengths); ++test) {
-        const size_t frames = lengths[test / 16], count = PROCESSES - test % 2;
+        const size_t frames = lengths[test / 16], count = PROCESSES - test % 3;
         const bool logarithmic = test / 2 % 2;
         mote_replicate replicates[PROCESSES];
         for (size_t r = 0; r < count; ++r) {
@@ -378,6 +380,34 @@ TEST(process_interval_of_few_is_t_on_logarithms)
     figures one = {.of = &of[2], .count = 3};
     interval = mote_statistics_process_interval(mean_figure, &one, 3, 1);
     assert_true(isnan(interval.low) && isnan(interval.high));
+}
+
+TEST(process_interval_takes_figures_below_one_and_leaves_out_zero)
+{
+    const double of[] = {0.001, 0.01, 0.1, 0};
+    figures few = {.of = of, .count = COUNT(of)};
+    mote_confidence interval;
+    interval = mote_statistics_process_interval(mean_figure, &few, COUNT(of), 1);
+    assert_near(log10(interval.low), -2 - t_two(0.025) / sqrt(3), 1e-9);
+    assert_near(log10(interval.high), -2 + t_two(0.025) / sqrt(3), 1e-9);
+    double shares[MANY], zeros[MANY] = {0};
+    for (size_t k = 0; k < MANY; ++k)
+        shares[k] = (double)(k + 1) / MANY;
+    figures many = {.of = shares, .count = MANY}, none = {.of = zeros, .count = MANY};
+    interval = mote_statistics_process_interval(mean_figure, &many, MANY, 4);
+    const double half = 1.959964 * sqrt(399.0 / 12 / 20) / MANY;
+    assert_near(interval.low, 0.525 - half, 0.02);
+    assert_near(interval.high, 0.525 + half, 0.02);
+    interval = mote_statistics_process_interval(mean_figure, &none, MANY, 4);
+    assert_true(isnan(interval.low) && isnan(interval.high));
+}
+
+TEST(half_width_is_the_wider_side_as_a_share_of_the_median)
+{
+    const mote_confidence above = {8, 13}, below = {5, 11}, none = {MOTE_NONE, MOTE_NONE};
+    assert_near(mote_statistics_half_width(10, above), 0.3, 1e-15);
+    assert_near(mote_statistics_half_width(10, below), 0.5, 1e-15);
+    assert_true(isinf(mote_statistics_half_width(10, none)));
 }
 
 TEST(process_interval_of_many_is_that_of_the_mean)
@@ -452,12 +482,13 @@ static void check_power(const double *x, size_t count, double e)
 TEST(exponent_of_exact_powers_is_the_power)
 {
     const double up[] = {1, 2, 4, 8, 16, 32}, down[] = {9, 8, 7, 5, 3}, one[] = {3, 3, 3, 3, 4};
-    const double second[] = {3, 4, 3, 3, 3};
+    const double second[] = {3, 4, 3, 3, 3}, first[] = {4, 3, 3, 3, 3};
     check_power(up, 6, 0.25);
     check_power(up, 5, -1);
     check_power(down, 5, 2);
     check_power(one, 5, 1);
     check_power(second, 5, 1);
+    check_power(first, 5, 1);
     const double same[] = {3, 3, 3, 3}, y[] = {1, 2, 3, 4};
     double exponent;
     mote_confidence interval;
