@@ -303,7 +303,7 @@ run_parts() {
     for pid in "${pids[@]}"; do
         wait "$pid" || ended=$?
     done
-    keep
+    [ "$at_once" = 1 ] || keep # of those that ended together
     case $ended in
     0) ;;
     75) late="$late $name" ;;

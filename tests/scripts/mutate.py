@@ -85,7 +85,7 @@ OTHER_WORD = {
 }
 # Symmetric in their arguments.
 SYMMETRIC = {"mote_dot", "mote_add", "mote_distance_squared", "fmin", "fmax", "max2", "fminf",
-             "fmaxf", "mote_dot_lanes", "memcpy", "calloc"}
+             "fmaxf", "mote_dot_lanes", "memcpy", "calloc", "mote_allocate"}
 
 
 class Mutant:
