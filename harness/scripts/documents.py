@@ -31,6 +31,7 @@ AUTO = "auto/auto.txt"
 CHARACTERS = "character-speed/characters.md"
 ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
+VERDICTS = "verdicts/verdicts.txt"
 CHECKS = "checks"
 RACES = "reference/races.csv"
 SOAK = "reference/soak.csv"
@@ -399,6 +400,15 @@ def ablation_table(root):
         yield f"| `{option}` | {' | '.join(f'{time:.2f}' for time in times)} |"
 
 
+def verdicts_table(root):
+    """The first table of make verdicts: a row {method, scenarios, frames, contacts, missed, invented} until an empty line."""
+    rows = [line.split() for line in file_of(root, VERDICTS).read_text().split("\n\n")[0].splitlines()[1:]]
+    yield "| | scenarios | frames | contacts | missed / invented |"
+    yield "| --- | ---: | ---: | ---: | ---: |"
+    for label, scenarios, frames, contacts, missed, invented in rows:
+        yield f"| `{label}` | {scenarios} | {int(frames):,} | {int(contacts):,} | {int(missed):,} / {int(invented):,} |"
+
+
 @functools.cache
 def ingredients(root, label, scene="comb"):
     """Of tracked particles with some part changed: median time, per cent of exact frames, and missed contacts."""
@@ -495,6 +505,7 @@ def checks_table(root):
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
           CROWDS: crowd_table, ENGINES: engines_table, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
           CHARACTERS: characters_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
+          VERDICTS: verdicts_table,
           CHECKS: checks_table}
 
 
