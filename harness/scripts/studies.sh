@@ -9,7 +9,8 @@
 #   PROGRAM=FILE    the program, built from this tree
 #
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
-# keeps of them), and all of its parts are in it and passed. It stays fresh where C files alone have changed
+# keeps of them, or by a comparison with its commit; texts, *.md, are left out), and all of its parts are in it
+# and passed. It stays fresh where C files alone have changed
 # and PROGRAM is still the recorded one to the last byte; studies that run programs of tests/ go by the
 # files alone. The record is written after each part, and parts that passed are not run again after an
 # interruption, unless the sources have changed since: those in WORK/STUDY, or, where WORK has fewer (on
@@ -31,16 +32,17 @@ if [ -z "$list" ] && [ -n "$(git status --porcelain -uno)" ]; then
 fi
 commit=$(git rev-parse --short=10 HEAD)
 program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
+no_texts=':!*.md'
 compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
     sed -nE "s/^ *\"$2\": (\"([^\"]*)\"|([^\",]+)),?$/\2\3/p" "$1"
 }
-# One hash for the files below some paths, as they are in this tree.
+# One hash for the files below some paths, as they are in this tree; texts are no sources.
 hash_of() { # PATH...
     [ -n "$(git ls-files -- "$@")" ] || fail "$table: $name: there is no file in $*"
-    { git ls-files -s -- "$@" && git diff HEAD -- "$@"; } | git hash-object --stdin | cut -c 1-16
+    { git ls-files -s -- "$@" "$no_texts" && git diff HEAD -- "$@" "$no_texts"; } | git hash-object --stdin | cut -c 1-16
 }
 # The newest record of the study, "" if there is none.
 newest() {
@@ -67,10 +69,9 @@ change_since() { # STUDY.JSON
     ! has_these_sources "$1" || return 0
     old=$(value "$1" commit)
     # shellcheck disable=SC2086 # a list of paths
-    changed=$(git diff --name-only "$old" -- $sources 2>/dev/null || true)
-    if [ -z "$changed" ]; then
+    if ! changed=$(git diff --name-only "$old" -- $sources "$no_texts" 2>/dev/null); then
         echo "other sources than at $old"
-    elif ! has_this_program "$1" "$changed"; then
+    elif [ -n "$changed" ] && ! has_this_program "$1" "$changed"; then
         echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
     fi
 }

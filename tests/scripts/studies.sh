@@ -102,6 +102,23 @@ rm "$work/fail"
 run 0
 calls "sums 1,sums 2,sums 3,"
 
+step="a text beside the sources, and another list of the same files, make nothing stale"
+echo text >core/README.md
+git add . && git commit -qm "a text"
+sed -i "s/30\t3\tcore\t/30\t3\tcore table.tsv\t/" table.tsv
+git commit -qam "another list"
+record=records/$(git rev-parse --short=10 HEAD~2)/sums/study.json
+sed -i.kept 's/"commit": "[^"]*"/"commit": "0123456789"/' "$record"
+run 1 list
+says "other sources than at 0123456789"
+mv "$record.kept" "$record"
+run 1 list
+says "table.tsv changed since"
+sed -i "s/core table.tsv/core core\/a.c/" table.tsv
+git commit -qam "the same files"
+run 0 list
+calls ""
+
 step="a part that would end too late is not begun"
 echo 2 >plots/c.gp
 git commit -qam third
