@@ -66,11 +66,11 @@ programs() { # CHECK NAME PATTERN PROGRAM...
     add "$check" $tried $failed
     [ $failed -eq 0 ]
 }
-# Eight runs under ThreadSanitizer; that of gcc 12 does not start with wide address randomisation.
+# Eight runs under ThreadSanitizer, or those with THREADS threads; that of gcc 12 does not start with wide address randomisation.
 threads() {
     local fixed= k runs=()
     ! setarch -R true 2>"$out/threads.log" || fixed="setarch -R"
-    for k in 1 2 3 4 5 6 7 8; do
+    for k in ${THREADS:-1 2 3 4 5 6 7 8}; do
         runs+=("$fixed $tsan/tests/answers --check tests/answers.txt --threads $k")
     done
     TSAN_OPTIONS=halt_on_error=1 programs \
