@@ -36,28 +36,34 @@ EQUIVALENT = "tests/mutants_equivalent.txt"
 
 # Files, and their tests, the quickest first.
 MODULES = {
-    "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "test_triangle", "answers"]),
+    "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "few answers", "test_triangle", "answers"]),
     "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
                                               "test_statistics_order", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate/certificate*.c",
         ["test_certificate_bounds", "test_certificate_box", "test_certificate_fitted",
-         "test_certificate_split", "test_certificate_apart", "answers", "test_certificate_limits",
-         "test_allocations", "test_certificate", "test_scene"],
+         "test_certificate_split", "few answers", "test_certificate_apart",
+         "test_certificate_limits", "test_allocations", "test_certificate", "test_scene",
+         "answers"],
     ),
     "stream": (
         "core/stream/*.c",
-        ["test_stream", "test_stream_limits", "test_stream_scene", "test_method_auto", "answers"],
+        ["few answers", "test_stream", "test_stream_limits", "test_stream_scene",
+         "test_method_auto", "answers"],
     ),
     "skin": (
         "core/skin/*.c",
-        ["test_skin", "test_skin_create", "answers"],
+        ["test_skin_create", "few answers", "test_skin", "answers"],
     ),
 }
 # They count what is allocated, by functions in place of libc's, and so cannot look for leaks.
 COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_scene"}
 HEAP_COUNT = "harness/base/heap_count.c"
-ARGUMENTS = {"answers": ["--check", "tests/answers.txt"]}
+# Scenes that are answered within a twentieth of a second each, and two of characters; all take half a minute.
+FEW = ("comb,far,fast-5,flat,hand-shapes,hands,islands,morph,mv,rigid-mv,rigid-ww,shell,sliver-3,"
+       "spider,still,touch,tt,tt-distance,tw,twist,vv,ww,ww-1k,ww-contact")
+ANSWERS = ["--check", "tests/answers.txt"]
+ARGUMENTS = {"answers": ANSWERS, "few answers": ANSWERS + ["--only", FEW]}
 
 TOKEN = re.compile(
     r"""(?P<space>\s+)
@@ -242,6 +248,10 @@ def compile_command(build, path):
     return kept + ["-O1"] + strict, entry["directory"]
 
 
+def program_of(test):
+    return test.split()[-1]
+
+
 def link_command(build, test):
     """Words and folder of the command that links a test."""
     text = f"{build}/tests/CMakeFiles/{test}.dir/link.txt"
@@ -257,8 +267,8 @@ def check_tests(build):
     """Ends the program if a module names a test that the build does not have."""
     for module, (_, tests) in MODULES.items():
         for test in tests:
-            if not os.path.exists(f"{build}/tests/{test}"):
-                sys.exit(f"mutate: {build}/tests has no {test}, which {module} names")
+            if not os.path.exists(f"{build}/tests/{program_of(test)}"):
+                sys.exit(f"mutate: {build}/tests has no {program_of(test)}, which {module} names")
 
 
 def limits(seconds):
@@ -275,7 +285,7 @@ class Bench:
     def __init__(self, build, work, tests):
         self.build, self.work, self.tests = os.path.abspath(build), work, tests
         self.source_dir = os.getcwd()
-        self.links = {test: link_command(self.build, test) for test in tests}
+        self.links = {test: link_command(self.build, program_of(test)) for test in tests}
         self.seconds, self.originals = {}, {}
         # In the place of the harness's own: that one replaces the functions that the leak check does.
         self.uncounted = f"{work}/uncounted.o"
@@ -297,14 +307,15 @@ class Bench:
         words, directory = self.links[test]
         words = list(words)
         at = words.index("-o")
-        words[at + 1] = f"{folder}/{test}"
+        program = f"{folder}/{program_of(test)}"
+        words[at + 1] = program
         first = next(k for k, w in enumerate(words) if w.endswith(".o"))
         words[first:first] = [made] if test in COUNTS_HEAP else [
             made, self.uncounted, "-fsanitize=leak"]
         result = subprocess.run(words, cwd=directory, capture_output=True, text=True)
         if result.returncode != 0:
             sys.exit(f"mutate: {test} does not link: {result.stderr[-500:]}")
-        return f"{folder}/{test}"
+        return program
 
     def run(self, program, test, folder, seconds):
         """Exit status; None when it took too long."""

@@ -6,8 +6,9 @@
    answers [--runs N] [--threads K] [--only NAME,NAME...] [--check FILE]
    prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
    compares with FILE; exit status 1 where a line differs. --threads: K jobs run at once, each
-   a scenario and a method of its own. --only: these scenarios, and their lines. If you change a method on purpose, renew
-   tests/answers.txt from this output once make determinism agrees on it. */
+   a scenario and a method of its own. --only: these scenarios, and their lines. If you change a
+   method on purpose, renew tests/answers.txt from this output once make determinism agrees on
+   it. */
 #include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
@@ -196,8 +197,8 @@ static char *report(const work *w)
     return fclose(file) == 0 ? text : (free(text), NULL);
 }
 
-/* Prints the lines of text that are not in expected; returns true if there are none, and, of all
-   scenarios, nothing else is in expected. */
+/* Prints the lines of text that are not in expected; returns true if there are none, and, of
+   all scenarios, nothing else is in expected. */
 static bool compare(const char *text, const char *expected, bool all)
 {
     bool same = !all || strcmp(text, expected) == 0;
