@@ -12,20 +12,22 @@
 /* A pair is left where a step gains less than this part of what is left of the step. */
 #define GAIN_LEAST 1e-3
 
-/* The largest s from which on g + m s - bend s^2 is not above 0 any more, where it is above 0
-   at some earlier s; 0 or less where it never is. */
-static double root_of(double g, double m, double bend)
+/* Until which s >= now g + m s - bend s^2, which is concave, stays above 0; 0 where it is not
+   above 0 at `now`. */
+static double root_of(double g, double m, double bend, double now)
 {
     const double square = m * m + 4 * bend * g;
-    if (!(square > 0))
+    if (!(g + (m - bend * now) * now > 0) || !(square > 0))
         return 0;
     const double root = sqrt(square);
     return m >= 0 ? (m + root) / (2 * bend) : 2 * g / (root - m);
 }
 
-/* Until when all vertices of b stay farther than the tolerance from all of a along n. */
+/* Until when all vertices of b stay farther than the tolerance from all of a along n, from
+   `now` on; 0 where they are not at `now`, as n is rounded: along it, ends of long triangles
+   that are nearly parallel may reach beyond each other. */
 static double apart_along(const mote_moving_triangle *a, const mote_moving_triangle *b,
-                          mote_vec3 n, const mote_leaf_question *question)
+                          mote_vec3 n, const mote_leaf_question *question, double now)
 {
     double until = HUGE_VAL;
     double pa[3], da[3];
@@ -37,7 +39,7 @@ static double apart_along(const mote_moving_triangle *a, const mote_moving_trian
         const double pb = mote_dot(n, b->p[j]) - question->tolerance;
         const double db = mote_dot(n, b->d[j]);
         for (int i = 0; i < 3; ++i)
-            until = fmin(until, root_of(pb - pa[i], db - da[i], question->bend));
+            until = fmin(until, root_of(pb - pa[i], db - da[i], question->bend, now));
     }
     return until;
 }
@@ -100,7 +102,7 @@ double mote_moving_triangles(const mote_moving_triangle *a, const mote_moving_tr
         if (!(squared > 0))
             return s;
         const mote_vec3 n = mote_scale(mote_sub(w[1], w[0]), 1 / sqrt(squared));
-        const double until = apart_along(a, b, n, q) * (1 - 1e-12);
+        const double until = apart_along(a, b, n, q, s) * (1 - 1e-12);
         if (until >= part) {
             q->apart = n;
             return part;
