@@ -505,8 +505,7 @@ def checks_table(root):
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
           CROWDS: crowd_table, ENGINES: engines_table, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
           CHARACTERS: characters_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
-          VERDICTS: verdicts_table,
-          CHECKS: checks_table}
+          VERDICTS: verdicts_table, CHECKS: checks_table}
 
 
 def pass_through(root, scene, n, law="log"):

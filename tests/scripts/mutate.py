@@ -381,9 +381,11 @@ def study(module, arguments):
         return None
     mutants = [m for path in paths for m in mutants_of(path)]
     random.Random(arguments.seed).shuffle(mutants)
+    wanted = arguments.count
     if arguments.part:
         part, parts = arguments.part
-        mutants, arguments.count = mutants[part - 1::parts], len(mutants)
+        mutants = mutants[part - 1::parts]
+        wanted = len(mutants)
     equivalents = read_equivalents()
     counted, killed, known, survivors = 0, 0, 0, []
     with tempfile.TemporaryDirectory(prefix="mote-mutants-") as work:
@@ -391,8 +393,8 @@ def study(module, arguments):
         bench.prepare(paths)
         left = iter(mutants)
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            while counted < arguments.count:
-                batch = [m for m, _ in zip(left, range(arguments.count - counted))]
+            while counted < wanted:
+                batch = [m for m, _ in zip(left, range(wanted - counted))]
                 if not batch:
                     break
                 for mutant, outcome in zip(batch, pool.map(bench.try_one, batch)):

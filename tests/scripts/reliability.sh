@@ -66,7 +66,8 @@ programs() { # CHECK NAME PATTERN PROGRAM...
     add "$check" $tried $failed
     [ $failed -eq 0 ]
 }
-# Eight runs under ThreadSanitizer, or those with THREADS threads; that of gcc 12 does not start with wide address randomisation.
+# Eight runs under ThreadSanitizer, or those with THREADS threads; that of gcc 12 does not start with wide
+# address randomisation.
 threads() {
     local fixed= k runs=()
     ! setarch -R true 2>"$out/threads.log" || fixed="setarch -R"
