@@ -248,6 +248,7 @@ reliability: build-tests program-kills build-fuzz
 RUNS ?= 56
 .PHONY: determinism
 determinism: build deps-test
+	@tests/scripts/portability.sh .
 	@tests/scripts/determinism.sh $(BUILD) $(RUNS) $(JOBS)
 
 # As many targets at a time as there are cores.
