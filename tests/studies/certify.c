@@ -7,8 +7,7 @@
    it, where an unstopped query's error or bracket exceeds its slack by more than 1e-12 L, or
    where contact is not decided rightly. */
 #include "core/certificate/certificate.h"
-#include "tests/studies/certify_truth.h"
-#include "tests/support/shapes.h"
+#include "tests/support/truth.h"
 #include "tests/support/variants.h"
 
 #define ROUNDING 1e-12 /* of L */
@@ -94,7 +93,7 @@ static bool run_scene(variant v[VARIANTS], uint32_t index)
             scene_next(&s, 1.4, false);
         else
             scene_step(&s);
-        const double truth = truth_distance(&s);
+        const double truth = scene_truth(&s);
         if (k % FRAMES_A_WHOLE_TRUTH == 0 && truth != scene_distance(&s)) {
             fprintf(stderr,
                     "certify: boxes leave out the nearest triangles: scene %u, frame %d\n",

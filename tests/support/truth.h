@@ -2,8 +2,8 @@
    apart than the nearest pair: the same number as scene_distance (tests/support/shapes.h), in a
    fraction of the time. Boxes must be apart by 1e-9 L more than that pair, so that no rounding
    can leave out the nearest. */
-#ifndef MOTE_TESTS_CERTIFY_TRUTH_H
-#define MOTE_TESTS_CERTIFY_TRUTH_H
+#ifndef MOTE_TESTS_TRUTH_H
+#define MOTE_TESTS_TRUTH_H
 
 #include "core/body/triangle.h"
 #include "tests/support/shapes.h"
@@ -74,7 +74,7 @@ static inline double truth_first(const truth_faces *f, const truth_faces *g, dou
                                         NULL);
 }
 
-static inline double truth_distance(const scene *s)
+static inline double scene_truth(const scene *s)
 {
     static truth_faces face[2];
     static double gap[TRUTH_FACES];
