@@ -41,10 +41,9 @@ MODULES = {
                                               "test_statistics_order", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate/certificate*.c",
-        ["test_certificate_bounds", "test_certificate_box", "test_certificate_fitted",
-         "test_certificate_split", "few answers", "test_certificate_apart",
-         "test_certificate_limits", "test_allocations", "test_certificate", "test_scene",
-         "answers"],
+        ["test_certificate_bounds", "test_certificate_box", "test_certificate_split",
+         "test_certificate", "few answers", "test_certificate_fitted", "test_allocations",
+         "test_certificate_limits", "test_certificate_apart", "test_scene", "answers"],
     ),
     "stream": (
         "core/stream/*.c",

@@ -87,7 +87,7 @@ static bool run_scene(variant v[VARIANTS], uint32_t index)
                index % 4 != 0);
     s.random += index;
     set_variants(v, s.length);
-    bool made = truth_has_room(&s) && create_all(v, &s);
+    bool made = create_all(v, &s);
     for (int k = 0; made && k < FRAMES_A_SCENE; ++k) {
         if (k % 10 == 0)
             scene_next(&s, 1.4, false);

@@ -4,6 +4,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 /* An ellipsoid with half axes size * (1, 0.7, 0.5), of 2 * slices * (rings - 1) triangles. */
 static mote_mesh *make_ellipsoid(uint32_t slices, uint32_t rings, double size)
@@ -72,7 +73,7 @@ TEST(query_on_convex_bodies_equals_brute_force)
         int contacts = 0;
         for (int f = 0; f < 80; ++f) {
             const mote_frame *frame = scene_next(&s, 1.2, false);
-            double expected = scene_distance(&s);
+            double expected = scene_truth(&s);
             bool inside =
                 expected > 0 && mote_length(frame->body[1].pose.translation) < 0.55 * s.length;
             contacts += expected == 0;
@@ -108,7 +109,7 @@ TEST(query_on_letters_is_near_and_misses_no_contact)
     int contacts = 0, frames = 40;
     for (int f = 0; f < frames; ++f) {
         const mote_frame *frame = scene_next(&s, 1.2, false);
-        double expected = scene_distance(&s);
+        double expected = scene_truth(&s);
         mote_answer a = answer(distance, frame);
         /* The hulls of the parts cover the surfaces. */
         assert_true(a.distance <= expected + 1e-12 * s.length);

@@ -2,6 +2,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -66,7 +67,7 @@ static void expect_distances(const variant *v, double size, bool deforming)
     int touching = 0;
     for (int f = 0; f < 30; ++f) {
         const mote_frame *frame = scene_next(&s, 1.3, false);
-        const double expected = scene_distance(&s);
+        const double expected = scene_truth(&s);
         const mote_answer a = ask_one(v, state, frame);
         touching += expected == 0;
         assert_true(a.has_distance);
@@ -108,7 +109,7 @@ TEST(contacts_agree_with_brute_force)
         for (int f = 0; f < 30; ++f) {
             const mote_frame *frame = scene_next(&s, 1.3, false);
             const mote_answer a = ask_one(&contacts[i], state, frame);
-            if (a.contact != (scene_distance(&s) <= tolerance))
+            if (a.contact != (scene_truth(&s) <= tolerance))
                 fail_msg("%s:%s frame %d: contact %d", contacts[i].method, contacts[i].options,
                          f, a.contact);
         }

@@ -3,6 +3,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -102,7 +103,7 @@ static void expect_contacts(double size, double tolerance, bool deforming, mote_
     int contacts = 0, frames = 60;
     for (int f = 0; f < frames; ++f) {
         const mote_frame *frame = scene_next(&s, 1.3, f % 2 == 1);
-        const double expected = scene_distance(&s);
+        const double expected = scene_truth(&s);
         move_scene(&s, away);
         if (expected == 0 || fabs(expected - tolerance) > 1e-6 * s.length)
             crowd_expect(&c, frame, expected <= tolerance);
@@ -209,9 +210,9 @@ TEST(update_with_a_bad_frame_is_refused)
         frame = *scene_next(&s, 1, false);
         assert_int_equal(m->update(state, &frame), MOTE_OK);
         assert_int_equal(m->query(state, &frame, &a), MOTE_OK);
-        if (a.contact != (scene_distance(&s) == 0))
+        if (a.contact != (scene_truth(&s) == 0))
             fail_msg("%s:%s: contact %d at distance %g after a bad frame", e->method, e->values,
-                     a.contact, scene_distance(&s));
+                     a.contact, scene_truth(&s));
         m->destroy(state);
         scene_free(&s);
     }

@@ -4,6 +4,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -125,7 +126,7 @@ static int run_distance(scene *s, const variant *variants, int count, int frames
     int contacts = 0;
     for (int f = 0; f < frames; ++f) {
         const mote_frame *frame = scene_next(s, reach, pose_only && f % 3);
-        double expected = scene_distance(s);
+        double expected = scene_truth(s);
         contacts += expected == 0;
         for (int i = 0; i < count; ++i) {
             mote_answer a = answer(&variants[i], state[i], frame);
@@ -170,7 +171,7 @@ TEST(query_on_rigid_bodies_without_vertices_equals_brute_force)
     for (int f = 0; f < 30; ++f) {
         mote_frame frame = *scene_next(&s, 1.3, false);
         frame.body[0].vertices = frame.body[1].vertices = NULL;
-        double expected = scene_distance(&s);
+        double expected = scene_truth(&s);
         for (int i = 0; i < 6; ++i) {
             mote_answer a = answer(&rigid[i], state[i], &frame);
             check_distance(&rigid[i], &s, &a, expected);
@@ -193,7 +194,7 @@ static void run_contact(const variant *variants, int count, double tolerance)
     int contacts = 0, frames = 60;
     for (int f = 0; f < frames; ++f) {
         const mote_frame *frame = scene_next(&s, 1.3, false);
-        double expected = scene_distance(&s);
+        double expected = scene_truth(&s);
         if (fabs(expected - tolerance) < 1e-9 * s.length && expected > 0)
             continue;
         contacts += expected <= tolerance;
@@ -250,7 +251,7 @@ TEST(query_from_a_seed_makes_fewer_tests)
     const mote_frame *frame;
     do
         frame = scene_next(&s, 1.3, false);
-    while (scene_distance(&s) == 0);
+    while (scene_truth(&s) == 0);
     uint64_t tests[2];
     double distance[2];
     for (int i = 0; i < 2; ++i) {
@@ -368,7 +369,7 @@ TEST(update_with_a_bad_frame_is_refused_and_the_next_good)
         bad.body[0].pose.translation.y = (double)NAN;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
         mote_answer a = answer(v, state, scene_next(&s, 1.3, false));
-        check_distance(v, &s, &a, scene_distance(&s));
+        check_distance(v, &s, &a, scene_truth(&s));
         method->destroy(state);
     }
     scene_free(&s);

@@ -2,6 +2,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 /* A method with parameters as text. */
 typedef struct variant {
@@ -71,7 +72,7 @@ static int run_distance(scene *s, int frames, double reach, bool pose_only)
     int contacts = 0;
     for (int f = 0; f < frames; f++) {
         const mote_frame *frame = scene_next(s, reach, pose_only && f % 3);
-        double expected = scene_distance(s);
+        double expected = scene_truth(s);
         contacts += expected == 0;
         for (int i = 0; i < VARIANTS; i++) {
             mote_answer a = ask(&made[i], frame);
@@ -131,7 +132,7 @@ TEST(query_for_contact_agrees_with_the_tolerance)
                 const mote_frame *frame = scene_next(&s, 1.3, false);
                 mote_answer a = ask(&made, frame);
                 assert_true(a.has_contact);
-                assert_int_equal(a.contact, scene_distance(&s) <= tolerance);
+                assert_int_equal(a.contact, scene_truth(&s) <= tolerance);
             }
             made.method->destroy(made.state);
         }

@@ -4,6 +4,7 @@
 #include "tests/support/skin_scene.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 static const char *const searches[] = {"search=fcl", "search=certified", "search=fcl,seed=none",
                                        "search=certified,seed=none"};
@@ -53,7 +54,7 @@ TEST(posed_parts_of_one_bone_are_exact)
             test_row("%s, frame %d", searches[i], f);
             next_pose(&k, 0.02, 1.3);
             turn_bones(&k, 1);
-            const double expected = scene_distance(&k.s);
+            const double expected = scene_truth(&k.s);
             const mote_answer a = ask(state, &k.s.frame);
             assert_true(a.has_distance && fabs(a.distance - expected) < 1e-13 * k.s.length);
             assert_int_equal(a.contact, expected <= 0);
@@ -99,12 +100,12 @@ TEST(posed_parts_follow_scaled_bones_only_where_the_search_can)
         next_pose(&k, 0.02, 1);
         k.s.frame.body[1].pose.translation.x = 2 * k.s.length;
         turn_bones(&k, 0.5);
-        const double expected = scene_distance(&k.s);
+        const double expected = scene_truth(&k.s);
         const double exact = ask(certified, &k.s.frame).distance;
         assert_true(fabs(exact - expected) < 1e-13 * k.s.length);
         const double larger = ask(fcl, &k.s.frame).distance;
         double_bones(&k);
-        assert_true(fabs(larger - scene_distance(&k.s)) < 1e-13 * k.s.length);
+        assert_true(fabs(larger - scene_truth(&k.s)) < 1e-13 * k.s.length);
     }
     mote_method_find("posed-parts")->destroy(fcl);
     mote_method_find("posed-parts")->destroy(certified);
@@ -125,7 +126,7 @@ TEST(posed_parts_for_contact_agree_with_the_tolerance)
                 next_pose(&k, 0.02, 1.3);
                 turn_bones(&k, 1);
                 const mote_answer a = ask(state, &k.s.frame);
-                const bool contact = scene_distance(&k.s) <= tolerance;
+                const bool contact = scene_truth(&k.s) <= tolerance;
                 assert_true(a.has_contact && !a.has_distance);
                 assert_int_equal(a.contact, contact);
                 contacts += contact;
@@ -287,7 +288,7 @@ TEST(posed_parts_want_bones)
     void *state = built("search=fcl", scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL));
     assert_non_null(state);
     const mote_frame *frame = scene_next(&s, 1.3, true);
-    assert_true(fabs(ask(state, frame).distance - scene_distance(&s)) < 1e-13 * s.length);
+    assert_true(fabs(ask(state, frame).distance - scene_truth(&s)) < 1e-13 * s.length);
     mote_method_find("posed-parts")->destroy(state);
     scene_free(&s);
 }

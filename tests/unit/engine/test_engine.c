@@ -3,6 +3,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stddef.h>
 
@@ -113,7 +114,7 @@ TEST(two_bodies_are_a_scene_of_two)
             else
                 assert_true(said->answer.distance > many.near);
             if (k % 10 == 0)
-                assert_close(said->answer.distance, scene_distance(&s), 1e-12 * s.length);
+                assert_close(said->answer.distance, scene_truth(&s), 1e-12 * s.length);
         }
         assert_true(near_frames > 3 && lost_frames > 3);
         mote_engine_destroy(pair);

@@ -3,6 +3,7 @@
 
 #include "tests/support/certificate_scene.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 TEST(query_deforming_tori_equals_all_pairs)
 {
@@ -13,7 +14,7 @@ TEST(query_deforming_tori_equals_all_pairs)
         int contacts = 0;
         for (int k = 0; k < 30; ++k) {
             scene_next(&s, k % 3 ? 1.3 : 0.6, false);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             contacts += !(truth > 0);
             check_exact(&s, c, truth);
         }
@@ -31,7 +32,7 @@ TEST(query_linear_modes_equals_all_pairs)
     mote_certificate *c = certificate_of(&s, NULL);
     for (int k = 0; k < 40; ++k) {
         next_of_modes(&s, 1.2);
-        check_exact(&s, c, scene_distance(&s));
+        check_exact(&s, c, scene_truth(&s));
     }
     mote_certificate_destroy(c);
     scene_free(&s);
@@ -58,7 +59,7 @@ TEST(query_without_a_step_equals_all_pairs)
         c[i] = certificate_of(&s, &options[i]);
     for (int k = 0; k < 20; ++k) {
         scene_next(&s, 1.2, false);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         for (int i = 0; i < 9; ++i)
             check_exact(&s, c[i], truth);
     }
@@ -160,7 +161,7 @@ TEST(query_separate_triangles_equals_all_pairs)
         mote_certificate *c = certificate_of(&s, NULL);
         for (int k = 0; k < 15; ++k) {
             scene_next(&s, 1, false);
-            check_exact(&s, c, scene_distance(&s));
+            check_exact(&s, c, scene_truth(&s));
         }
         mote_certificate_destroy(c);
         scene_free(&s);
@@ -254,7 +255,7 @@ TEST(query_contact_agrees_with_the_distance)
     int found[2] = {0, 0};
     for (int k = 0; k < 30; ++k) {
         scene_next(&s, 1.2, false);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         const double tolerances[4] = {0, 0.05 * s.length, 0.5 * truth, 2 * truth};
         for (int i = 0; i < 4; ++i) {
             mote_certificate_answer a;

@@ -2,6 +2,7 @@
    of their trees. Every answer is compared with all pairs of triangles. */
 #include "tests/support/certificate_scene.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #define PATHS 12
 #define STEPS 40
@@ -31,7 +32,7 @@ static void walk(scene *s, mote_certificate *c, double enough, tally *sum)
         turn_body(s, 0.02);
         s->frame.body[1].pose.translation.x += 0.02 * cos(0.2 * k) * s->length;
         scene_step(s);
-        const double truth = scene_distance(s);
+        const double truth = scene_truth(s);
         mote_certificate_answer a;
         mote_certificate_query(c, &s->frame, NULL, enough * s->length, &a);
         check_bracket(s, &a, truth);
@@ -94,7 +95,7 @@ TEST(contact_after_a_leap_is_that_of_all_pairs)
         scene_next(&s, 1.2, false);
         s.frame.body[1].pose.translation.x *= k % 2 ? -1 : 1;
         mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         mote_certificate_answer a;
         mote_certificate_query(c, &s.frame, NULL, 0, &a);
         check_bracket(&s, &a, truth);
@@ -121,7 +122,7 @@ TEST(contact_of_a_rigid_body_that_circles_is_denied_without_any_block)
         mote_certificate_answer a;
         mote_certificate_query(c, &s.frame, NULL, 0, &a);
         test_row("step %d", k);
-        check_bracket(&s, &a, scene_distance(&s));
+        check_bracket(&s, &a, scene_truth(&s));
         assert_true(a.lower > 0);
         assert_true(k == 0 || a.counters.blocks == 0);
     }

@@ -8,6 +8,7 @@
 #include "core/certificate/certificate_state.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 enum { FUNCTIONS = 700, PADDED = 704, FRAMES = 30 };
 
@@ -143,7 +144,7 @@ TEST(query_with_700_functions_equals_all_pairs_sparse_or_dense)
         for (int k = 0; k < 2; ++k) {
             next_frame(&s[k], &w, 0.1 * s[k].length);
             mote_certificate_query(c[k], &s[k].frame, NULL, -1, &a[k]);
-            const double truth = scene_distance(&s[k]);
+            const double truth = scene_truth(&s[k]);
             assert_true(fabs(a[k].distance - truth) <= 1e-12 * s[k].length);
             assert_true(a[k].lower <= truth);
             assert_true(a[k].lower >= truth - 1e-12 * s[k].length);

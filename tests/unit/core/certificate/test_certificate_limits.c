@@ -7,6 +7,7 @@
 #include "tests/support/certificate_scene.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 TEST(query_with_slack_returns_a_bracket)
 {
@@ -21,7 +22,7 @@ TEST(query_with_slack_returns_a_bracket)
     }
     for (int k = 0; k < 30; ++k) {
         scene_next(&s, 1.4, false);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         for (int i = 0; i < 3; ++i) {
             mote_certificate_answer a;
             mote_certificate_query(c[i], &s.frame, NULL, -1, &a);
@@ -49,7 +50,7 @@ TEST(query_far_beyond_the_range_of_floats_finds_the_nearest)
         s.frame.body[1].pose.translation =
             mote_vec3_make(scene_random(&s, -1, 1) * far, far, scene_random(&s, -1, 1) * far);
         mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         uint32_t first[2][3];
         for (int b = 0; b < 2; ++b)
             memcpy(first[b], s.mesh[b]->triangles[k], sizeof first[b]);
@@ -79,7 +80,7 @@ TEST(query_beyond_the_range_of_squares_is_infinite)
                 s.frame.body[1].pose.translation.x = 1e200;
             mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
             const mote_answer a = method_run_ask(&u, &s.frame);
-            const double truth = far ? HUGE_VAL : scene_distance(&s);
+            const double truth = far ? HUGE_VAL : scene_truth(&s);
             test_row("%s, frame %d", keys[k], frame);
             assert_true(a.lower >= 0 && a.lower <= truth);
             assert_true(far ? isinf(a.distance) && !a.contact
@@ -133,7 +134,7 @@ TEST(query_with_budget_returns_an_honest_bracket)
         int stopped = 0;
         for (int k = 0; k < 15; ++k) {
             scene_next(&s, 1.1, false);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             mote_certificate_answer a;
             mote_certificate_query(c, &s.frame, NULL, -1, &a);
             check_bracket(&s, &a, truth);

@@ -6,6 +6,7 @@
 #include "tests/support/certificate_scene.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <float.h>
 
@@ -193,7 +194,7 @@ TEST(trees_with_samples_have_no_empty_leaf)
         mote_certificate *c = certificate_of(&s, NULL);
         for (int f = 0; f < 3; ++f) {
             scene_next(&s, 1.2, false);
-            check_exact(&s, c, scene_distance(&s));
+            check_exact(&s, c, scene_truth(&s));
         }
         mote_certificate_destroy(c);
         scene_free(&s);

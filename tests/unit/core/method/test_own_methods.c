@@ -7,6 +7,7 @@
 #include "tests/support/solids.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -134,7 +135,7 @@ TEST(certified_contact_question_says_what_it_knows)
         method_run_init(&u[i], "certified", cases[i].keys, setup);
     for (int k = 0; k < 60; ++k) {
         const mote_frame *frame = scene_next(&s, 1.5, false);
-        const bool truth = scene_distance(&s) <= tolerance;
+        const bool truth = scene_truth(&s) <= tolerance;
         contacts += truth;
         apart += !truth;
         for (int i = 0; i < 4; ++i) {

@@ -5,6 +5,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stddef.h>
 
@@ -59,7 +60,7 @@ static double run(scene *s, const char *parameters, int frames, bool smooth)
     for (int i = 0; i < frames; ++i) {
         const mote_frame *frame = smooth ? smooth_frame(s, 0.6) : scene_next(s, 1.2, false);
         const mote_answer a = method_run_ask(&u, frame);
-        const double truth = scene_distance(s);
+        const double truth = scene_truth(s);
         assert_answer(s, &a, truth);
         exact += a.distance <= truth + 1e-9 * s->length;
     }

@@ -10,6 +10,7 @@
 #include "tests/support/skin_scene.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 static mote_certificate *certificate_by(const scene *s, bool linear_fits)
 {
@@ -39,7 +40,7 @@ TEST(query_of_random_affine_bones_equals_all_pairs)
         mote_certificate *c = certificate_of(&k.s);
         for (int frame = 0; frame < 40; ++frame) {
             next_pose(&k, wildness[frame % 4], frame % 3 ? 2.5 : 1.2);
-            const double truth = scene_distance(&k.s);
+            const double truth = scene_truth(&k.s);
             mote_certificate_answer a;
             mote_certificate_query(c, &k.s.frame, NULL, -1, &a);
             test_row("plan %zu, frame %d", i, frame);
@@ -214,7 +215,7 @@ TEST(boxes_enclose_what_steep_targets_move)
         assert_true(check_body(&s, c, 0, &narrowed) > 0);
         mote_certificate_answer a;
         mote_certificate_query(c, &s.frame, NULL, -1, &a);
-        assert_true(fabs(a.distance - scene_distance(&s)) <= 1e-12 * s.length);
+        assert_true(fabs(a.distance - scene_truth(&s)) <= 1e-12 * s.length);
     }
     mote_certificate_destroy(c);
     scene_free(&s);
@@ -371,7 +372,7 @@ TEST(skin_of_65535_bones_equals_all_pairs)
         next_pose(&k, 0.02, 1.6);
         mote_certificate_answer a;
         mote_certificate_query(c, &k.s.frame, NULL, -1, &a);
-        assert_true(fabs(a.distance - scene_distance(&k.s)) <= 1e-12 * k.s.length);
+        assert_true(fabs(a.distance - scene_truth(&k.s)) <= 1e-12 * k.s.length);
     }
     mote_certificate_destroy(c);
     skinned_free(&k);
@@ -401,7 +402,7 @@ TEST(sample_poses_change_no_answer)
                        c[0]->side[0].tree->leaf_vertex_count * sizeof(uint32_t)) != 0);
     for (int frame = 0; frame < 40; ++frame) {
         next_pose(&k, wildness[frame % 4], 2);
-        const double truth = scene_distance(&k.s);
+        const double truth = scene_truth(&k.s);
         for (int i = 0; i < 2; ++i) {
             mote_certificate_answer a;
             mote_certificate_query(c[i], &k.s.frame, NULL, -1, &a);
@@ -435,7 +436,7 @@ TEST(other_methods_answer_for_skins)
     int exact = 0;
     for (int frame = 0; frame < 20; ++frame) {
         next_pose(&k, 0.1, 2);
-        const double truth = scene_distance(&k.s);
+        const double truth = scene_truth(&k.s);
         for (int i = 0; i < 3; ++i) {
             const mote_method *method = mote_method_find(names[i]);
             mote_frame frame_of = k.s.frame;
@@ -475,7 +476,7 @@ TEST(scene_of_skins_equals_all_pairs)
         size_t count = 0;
         const mote_scene_pair *pair = mote_scene_pairs(many, &count);
         assert_int_equal(count, 1);
-        assert_true(fabs(pair->distance - scene_distance(&k.s)) <= 1e-12 * k.s.length);
+        assert_true(fabs(pair->distance - scene_truth(&k.s)) <= 1e-12 * k.s.length);
     }
     mote_scene_destroy(many);
     skinned_free(&k);

@@ -3,6 +3,7 @@
 #include "tests/support/skin_scene.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -34,7 +35,7 @@ TEST(stream_and_auto_equal_all_pairs)
             scene_next(&s, 1.4, false);
             if (k >= 30 && k < 60)
                 bend_hard(&s, 0.6);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             for (int i = 0; i < 3; ++i) {
                 test_row("%s:%s frame %d", names[i], keys[i], k);
                 const mote_answer a = method_run_ask(&u[i], &s.frame);
@@ -110,7 +111,7 @@ TEST(auto_where_nothing_changes_repeats_its_answer)
 
 static void check_distance(const scene *s, const mote_answer *a)
 {
-    const double truth = scene_distance(s);
+    const double truth = scene_truth(s);
     assert_true(fabs(a->distance - truth) <= 1e-12 * s->length);
     assert_true(a->has_lower && a->lower <= truth);
 }

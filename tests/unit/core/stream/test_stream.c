@@ -2,6 +2,7 @@
 #include "harness/base/heap_count.h"
 #include "tests/support/certificate_scene.h"
 #include "tests/support/stream_scene.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -29,7 +30,7 @@ TEST(query_any_deformation_equals_all_pairs)
             else
                 scene_next(&s, k % 3 ? 1.4 : 0.8, false);
             shake(&s, shakes[i]);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             contacts += !(truth > 0);
             check_streamed(&s, stream, truth);
         }
@@ -95,7 +96,7 @@ TEST(query_sheet_at_rest_on_a_body_equals_all_pairs)
                         p.x, p.y, ground(p.x, p.y) + (b == 0 ? gaps[i] + settled : 0));
                 }
             }
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             check_streamed(&s, stream, truth);
             const mote_stream_frame frame = positions_of(&s);
             leaf_pairs += stream_answer(stream, &frame, -1).counters.leaf_pairs;
@@ -133,7 +134,7 @@ TEST(query_separate_triangles_equals_all_pairs)
             test_row("%u triangles, frame %d", counts[i], k);
             scene_next(&s, 0.5, false);
             shake(&s, 0.01);
-            check_streamed(&s, stream, scene_distance(&s));
+            check_streamed(&s, stream, scene_truth(&s));
         }
         mote_stream_destroy(stream);
         scene_free(&s);
@@ -158,7 +159,7 @@ TEST(query_any_layout_gives_the_same_bits)
         }
         const mote_stream_frame plain = positions_of(&s);
         const mote_certificate_answer expected = stream_answer(streams[6], &plain, -1);
-        assert_true(fabs(expected.distance - scene_distance(&s)) <= 1e-12 * s.length);
+        assert_true(fabs(expected.distance - scene_truth(&s)) <= 1e-12 * s.length);
         for (size_t i = 0; i < ROWS_OF(strides); ++i) {
             const bool single = i >= 3;
             mote_stream_frame frame = {.unchanged = {false, false}};
@@ -193,7 +194,7 @@ TEST(query_position_that_is_not_finite_is_refused)
     int contacts = 0, refused = 0;
     for (int k = 0; k < 12; ++k) {
         scene_next(&s, k % 2 ? 0.2 : 1.5, false);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         contacts += !(truth > 0);
         for (uint32_t i = 0; i < 2 * s.mesh[0]->vertex_count; ++i) {
             mote_vec3 *at = &s.world[i % 2][i / 2];
@@ -239,7 +240,7 @@ TEST(query_bad_layout_is_refused)
     frame = good;
     frame.positions[0].data = (const char *)good.positions[0].data + 4;
     assert_int_equal(mote_stream_query(stream, &frame, -1, &a), MOTE_EINVAL);
-    check_streamed(&s, stream, scene_distance(&s));
+    check_streamed(&s, stream, scene_truth(&s));
     mote_stream_destroy(stream);
     scene_free(&s);
 }
@@ -290,7 +291,7 @@ TEST(query_positions_of_another_size_than_the_mesh_is_exact)
                     s.world[b][v] = mote_scale(s.world[b][v], sizes[i]);
             }
             s.length = length * fmax(1, sizes[i]);
-            check_streamed(&s, stream, scene_distance(&s));
+            check_streamed(&s, stream, scene_truth(&s));
             s.length = length;
         }
         mote_stream_destroy(stream);
@@ -314,7 +315,7 @@ TEST(query_positions_too_far_apart_is_refused)
     assert_int_equal(mote_stream_query(stream, &frame, -1, &a), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "too far apart"));
     scene_next(&s, 1.5, false);
-    check_streamed(&s, stream, scene_distance(&s));
+    check_streamed(&s, stream, scene_truth(&s));
     mote_stream_destroy(stream);
     scene_free(&s);
 }
@@ -336,7 +337,7 @@ TEST(query_slack_budget_and_contact_bracket_the_truth)
     for (int k = 0; k < 40; ++k) {
         scene_next(&s, 1.4, false);
         shake(&s, 0.002);
-        const double truth = scene_distance(&s), tolerance = 0.05 * s.length;
+        const double truth = scene_truth(&s), tolerance = 0.05 * s.length;
         const mote_stream_frame frame = positions_of(&s);
         for (int i = 0; i < 4; ++i) {
             const mote_certificate_answer a = stream_answer(streams[i], &frame, -1);
@@ -379,7 +380,7 @@ TEST(query_unchanged_body_gives_the_same_answers)
         frame.unchanged[0] = k > 0;
         const mote_certificate_answer b = stream_answer(told, &frame, -1);
         assert_true(fabs(a.distance - b.distance) <= 1e-13 * s.length);
-        assert_true(fabs(a.distance - scene_distance(&s)) <= 1e-12 * s.length);
+        assert_true(fabs(a.distance - scene_truth(&s)) <= 1e-12 * s.length);
         fewer += b.counters.positions < a.counters.positions;
     }
     assert_true(fewer > 10);

@@ -4,6 +4,7 @@
 
 #include "tests/support/certificate_scene.h"
 #include "tests/support/stream_scene.h"
+#include "tests/support/truth.h"
 
 #include <stdio.h>
 
@@ -81,7 +82,7 @@ TEST(stream_stamps_that_begin_again_do_not_bring_old_boxes_back)
             assert_memory_equal(&a.counters, &b.counters, sizeof a.counters);
             assert_int_equal(used.search.stamp, stamps[k % 2] ? 1 : 2);
             assert_true(used.search.aim != 0 || !(a.distance > 0));
-            assert_true(fabs(a.distance - scene_distance(&s)) <= 1e-12 * s.length);
+            assert_true(fabs(a.distance - scene_truth(&s)) <= 1e-12 * s.length);
             own_free(&used);
             own_free(&fresh);
         }
@@ -163,7 +164,7 @@ TEST(query_positions_far_below_the_unit_are_exact)
             }
             const mote_stream_frame frame = positions_of(&s);
             const mote_certificate_answer a = stream_answer(stream, &frame, -1);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             assert_true(fabs(a.distance - truth) <= allowed);
             assert_true(a.lower <= truth && a.lower >= truth - allowed);
         }
@@ -239,7 +240,7 @@ TEST(query_floats_of_which_sums_overflow_are_answered)
                                      .single = true};
             }
             const mote_certificate_answer a = stream_answer(stream, &frame, -1);
-            const double truth = scene_distance(&s);
+            const double truth = scene_truth(&s);
             assert_true(fabs(a.distance - truth) <= 1e-12 * size * s.length);
             assert_true(a.lower <= truth && a.lower >= truth - 1e-12 * size * s.length);
             free(data[0]);
@@ -314,7 +315,7 @@ TEST(query_unchanged_body_while_the_other_goes_far_away)
         frame.unchanged[0] = k > 0;
         frame.unchanged[1] = k > 0 && !(fabs(away[k] - away[k - 1]) > 0);
         const mote_certificate_answer a = stream_answer(stream, &frame, -1);
-        const double truth = scene_distance(&s);
+        const double truth = scene_truth(&s);
         s.length = length * fmax(1, away[k]);
         check_bracket(&s, &a, truth);
         assert_true(a.distance <= truth + 1e-12 * s.length);
