@@ -69,11 +69,13 @@ JOBS ?= $(shell nproc)
 BUILD = build
 MOTE = $(BUILD)/mote
 
+# One make at a time configures or compiles.
+locked = mkdir -p $(BUILD) && cmake/locked.sh $(BUILD)
 # $(call configure,PRESET): silent, unless it fails.
-configure = mkdir -p $(BUILD) && { cmake --preset $(1) > $(BUILD)/configure.log 2>&1 || \
-    { cat $(BUILD)/configure.log; exit 1; }; }
+configure = $(locked) sh -c 'cmake --preset $(1) > $(BUILD)/configure.log 2>&1 || \
+    { cat $(BUILD)/configure.log; exit 1; }'
 # $(call compile,FOLDER[,TARGET...]): everything where no target is named.
-compile = cmake/compile.sh $(1) $(JOBS) $(2)
+compile = $(locked) cmake/compile.sh $(1) $(JOBS) $(2)
 # A word for the shell, whatever it holds.
 quoted = '$(subst ','\'',$(1))'
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# compile.sh ROOT: tests the output of cmake/compile.sh on a program of two sources: warnings and
+# compile.sh ROOT: tests cmake/locked.sh, and the output of cmake/compile.sh on two sources: warnings and
 # errors unchanged, the progress, and nothing of CMake's or make's.
 set -eu
 compile=$1/cmake/compile.sh
@@ -51,3 +51,14 @@ tr '\r' '\n' <said | grep 'compiling' | sed 's/\x1b\[K//' | while IFS= read -r l
     [ ${#line} -le 23 ] || fail "a line of ${#line} characters"
 done
 has_not 'Built target'
+
+# Of two calls in one folder the second waits, says so, and ends with the status of its command.
+locked=$1/cmake/locked.sh
+"$locked" . sh -c 'echo first begins; sleep 1; echo first ends' >order &
+while [ ! -s order ]; do sleep 0.1; done
+status=0
+"$locked" . sh -c 'echo second; exit 3' >>order 2>said || status=$?
+wait
+[ "$status" -eq 3 ] || fail "status $status of a command that ends with 3"
+has 'waiting for another make'
+printf 'first begins\nfirst ends\nsecond\n' | cmp -s - order || fail "two at once: $(xargs <order)"
