@@ -65,10 +65,12 @@ static const library libraries[] = {
 };
 
 /* An include line. Both names are relative to the root; that of another library is as
-   written. */
+   written. A module is a header and its source: their common name without the suffix, of this
+   length; 0: a name without one. */
 typedef struct include {
     char file[400];
     char included[160];
+    size_t file_module, included_module;
 } include;
 
 static include includes[8192];
@@ -86,6 +88,12 @@ static bool is_source(const char *name)
                    strcmp(dot, ".cpp") == 0 || strcmp(dot, ".hpp") == 0);
 }
 
+static size_t module_length(const char *file)
+{
+    const char *dot = strrchr(file, '.');
+    return dot ? (size_t)(dot - file) : 0;
+}
+
 static void read_includes(const char *file)
 {
     char path[1024], line[1024];
@@ -97,6 +105,8 @@ static void read_includes(const char *file)
         include *next = &includes[include_count];
         if (sscanf(line, " # include %*[\"<]%159[^\">]", next->included) == 1) {
             (void)snprintf(next->file, sizeof next->file, "%s", file);
+            next->file_module = module_length(next->file);
+            next->included_module = module_length(next->included);
             ++include_count;
         }
     }
@@ -198,29 +208,27 @@ TEST(rooms_include_only_rooms_below_them)
     }
 }
 
-/* A module is a header and its source: their common name without the suffix. */
-static size_t module_length(const char *file)
+static bool includes_itself(const include *line)
 {
-    return (size_t)(strrchr(file, '.') - file);
-}
-
-static bool same_module(const char *a, const char *b)
-{
-    return strrchr(b, '.') && module_length(a) == module_length(b) &&
-           strncmp(a, b, module_length(a)) == 0;
+    return line->file_module == line->included_module &&
+           strncmp(line->file, line->included, line->file_module) == 0;
 }
 
 static bool visited[sizeof includes / sizeof includes[0]];
 
-/* Whether includes lead from a file's module to target's module. */
-static bool reaches(const char *file, const char *target)
+/* Whether includes lead from the module that one line includes to the file of another. */
+static bool reaches(const include *from, const include *target)
 {
     for (size_t i = 0; i < include_count; ++i) {
-        if (visited[i] || !same_module(file, includes[i].file) ||
-            same_module(file, includes[i].included) || !strrchr(includes[i].included, '.'))
+        const include *line = &includes[i];
+        if (line->file_module != from->included_module || visited[i] ||
+            strncmp(line->file, from->included, line->file_module) != 0 ||
+            includes_itself(line) || line->included_module == 0)
             continue;
         visited[i] = true;
-        if (same_module(target, includes[i].included) || reaches(includes[i].included, target))
+        if ((line->included_module == target->file_module &&
+             strncmp(line->included, target->file, line->included_module) == 0) ||
+            reaches(line, target))
             return true;
     }
     return false;
@@ -230,11 +238,11 @@ TEST(no_module_includes_itself_in_a_circle)
 {
     for (size_t i = 0; i < include_count; ++i) {
         const include *line = &includes[i];
-        if (lies_in(line->file, "tests") || same_module(line->file, line->included) ||
+        if (lies_in(line->file, "tests") || includes_itself(line) ||
             !strchr(line->included, '/'))
             continue;
         memset(visited, 0, sizeof visited);
-        if (reaches(line->included, line->file))
+        if (reaches(line, line))
             fail_msg("%s includes %s, which comes back to it", line->file, line->included);
     }
 }
