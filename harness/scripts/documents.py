@@ -3,20 +3,22 @@
 
 A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
-record of a study of `make record`, or, while there is none, FILE in results/reference; "checks" are the checks.tsv
-of all records, and what only results/reference has. Above the table stands when it was measured, and whether the
+record of a study of `make record`, or, while there is none, FILE in results/reference; checks, fuzz, coverage,
+mutation and soak are those of reliability_tables.py. Above the table stands when it was measured, and whether the
 study's sources have changed since. A number within a sentence is typed by
 hand; the sentence stands in SENTENCES with its values, and has to be in the document, rounded as there. --check
 writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot
 be read."""
-import csv
 import functools
 import json
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
+
+sys.dont_write_bytecode = True  # no folder beside the sources
+from records import csv_rows, file_of, has_changed, record_of, study_of
+from reliability_tables import GATHERED, checks, soaked
 
 SUMMARY = "reference/summary.json"
 DYNAMICS = "dynamics/dynamics.csv"
@@ -32,64 +34,37 @@ CHARACTERS = "character-speed/characters.md"
 ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
 VERDICTS = "verdicts/verdicts.txt"
-CHECKS = "checks"
 RACES = "reference/races.csv"
-SOAK = "reference/soak.csv"
-RELIABILITY = "reference/reliability.csv"
 END = "<!-- to here -->"
 CHANGED = "its sources have changed since"
 
 
-def record_of(root, source):
-    """The newest record of a source's study: its folder, or None."""
-    folders = [file.parent for file in root.glob(f"results/records/*/{Path(source).parent}/study.json")
-               if (file.parent / Path(source).name).exists()]
-    return max(folders, key=lambda folder: json.loads((folder / "study.json").read_text())["ended"], default=None)
+def link(text, record, document):
+    return f"[{text}]({os.path.relpath(record, document.parent)})"
 
 
-def file_of(root, source):
-    return (record_of(root, source) or root / "results" / "reference") / Path(source).name
-
-
-@functools.cache
-def has_changed(root, study):
-    """Whether the sources of a recorded study have changed since; None without the repository that tells."""
-    listed = subprocess.run(
-        ["bash", "harness/scripts/studies.sh", "harness/scripts/studies.tsv", "results/records", "results/record",
-         "list"], cwd=root, env={**os.environ, "ONLY": study}, capture_output=True, text=True, check=False)
-    if listed.returncode > 1:
-        return None
-    return any(reason in listed.stdout for reason in (" changed since ", " other sources than "))
-
-
-def heading(root, source, old):
+def heading(root, source, document, old):
     """When a table was measured. old: the block as it stands, which is believed where nothing else tells."""
     if source.startswith("reference/"):
         return []
-    if source == CHECKS:
-        return heading_of_checks(root, old)
+    if source in GATHERED:
+        return heading_of_gathered(root, GATHERED[source].records(root), document, old)
     record = record_of(root, source)
     if not record:
         when = max(row["measured"] for row in csv_rows(root, source))[:10]
         return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
-    study = json.loads((record / "study.json").read_text())
+    study = study_of(record)
     changed = has_changed(root, study["study"])
     changed = CHANGED in old if changed is None else changed
-    return [f"Recorded on {study['ended'][:10]}, [{study['commit']}](../{record.relative_to(root)})"
+    return [f"Recorded on {study['ended'][:10]}, {link(study['commit'], record, document)}"
             f"{'; ' + CHANGED if changed else ''}.", ""]
 
 
-def checked(root):
-    """The newest record of every study that has checks: its study.json and its folder, by name."""
-    studies = {file.parent.name for file in root.glob("results/records/*/*/checks.tsv")}
-    folders = {name: record_of(root, f"{name}/checks.tsv") for name in sorted(studies)}
-    return {name: (json.loads((folder / "study.json").read_text()), folder) for name, folder in folders.items()}
-
-
-def heading_of_checks(root, old):
+def heading_of_gathered(root, records, document, old):
+    """records: by the names of their studies."""
     links, changed = [], []
-    for name, (study, folder) in checked(root).items():
-        links.append(f"[{name}](../{folder.relative_to(root)})")
+    for name, record in records.items():
+        links.append(link(name, record, document))
         now = has_changed(root, name)
         if f"`{name}`" in old if now is None else now:
             changed.append(f"`{name}`")
@@ -97,12 +72,6 @@ def heading_of_checks(root, old):
         return []
     sources = f" The sources of {', '.join(changed)} have changed since." if changed else ""
     return [f"Recorded: {', '.join(links)}; the others stand in the reference.{sources}", ""]
-
-
-@functools.cache
-def csv_rows(root, source):
-    with open(file_of(root, source), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def by_method(rows, name="method"):
@@ -482,30 +451,11 @@ def characters_table(root):
     yield from file_of(root, CHARACTERS).read_text().splitlines()
 
 
-@functools.cache
-def checks(root):
-    """By name, how many cases were tried, how many failed, and when: of the records, or else of the reference."""
-    rows = {}
-    for study, folder in checked(root).values():
-        for line in (folder / "checks.tsv").read_text().splitlines():
-            check, tried, failed = line.split("\t")
-            rows[check] = (int(tried), int(failed), study["ended"][:10])
-    for row in csv_rows(root, RELIABILITY):
-        rows.setdefault(row["check"], (int(row["tried"]), int(row["failed"]), row["date"]))
-    return rows
-
-
-def checks_table(root):
-    yield "| what was checked | tried | failed | measured |"
-    yield "| --- | ---: | ---: | --- |"
-    for check, (tried, failed, date) in checks(root).items():
-        yield f"| {check} | {tried:,} | {failed:,} | {date} |"
-
-
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
           CROWDS: crowd_table, ENGINES: engines_table, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
           CHARACTERS: characters_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
-          VERDICTS: verdicts_table, CHECKS: checks_table}
+          VERDICTS: verdicts_table,
+          **{name: gathered.table for name, gathered in GATHERED.items()}}
 
 
 def pass_through(root, scene, n, law="log"):
@@ -540,15 +490,6 @@ def span(values):
 def query_times(root, *methods):
     """The least and the largest time of a frame of the paper's scenes, in microseconds."""
     return span([float(row["query_ns"]) / 1e3 for row in loops(root, methods)])
-
-
-@functools.cache
-def soaked(root, method):
-    """What a method did in the longest of the soaks: per cent that are exact, frames, missed contacts."""
-    row = max((r for r in csv_rows(root, SOAK) if r["method"] == method), key=lambda r: int(r["queries"]))
-    frames = int(row["queries"])
-    exact = sum(int(row[f"below_1e-{k}"]) for k in range(9, 17))
-    return (100 * exact / frames, frames, int(row["missed"]))
 
 
 def failures(root, check):
@@ -732,7 +673,7 @@ SENTENCES = [
 
 
 def documents(root):
-    return [root / "README.md", *sorted((root / "docs").glob("*.md"))]
+    return [root / "README.md", *sorted((root / "docs").glob("*.md")), root / "results/reference/reliability.md"]
 
 
 def blocks(document, text):
@@ -750,7 +691,7 @@ def rewritten(root, document):
     """The text of a document, and what it should be."""
     text = new = document.read_text()
     for source, begin, end in reversed(list(blocks(document, text))):
-        lines = heading(root, source, text[begin:end]) + list(TABLES[source](root))
+        lines = heading(root, source, document, text[begin:end]) + list(TABLES[source](root))
         new = new[:begin] + "\n" + "\n".join(lines) + "\n\n" + new[end:]
     return text, new
 

@@ -5,7 +5,7 @@ set -euo pipefail
 root=$1 work=$2
 fail() { echo "documents: $*" >&2; cat "$work/said" >&2; exit 1; }
 rm -rf "$work"
-mkdir -p "$work/results" "$work/harness"
+mkdir -p "$work/results" "$work/harness" "$work/tests"
 : >"$work/said"
 check() { # STATUS [--check]
     local wanted=$1 status=0
@@ -20,6 +20,7 @@ check 2 "$root" --chek
 cp -r "$root/README.md" "$root/docs" "$work"
 cp -r "$root/results/reference" "$root/results/records" "$work/results"
 cp -r "$root/harness/scripts" "$work/harness"
+cp -r "$root/tests/corpus" "$work/tests"
 
 # A cell of a table, typed by hand, is found and written again.
 sed -i 's/^| tt | [0-9.]* (/| tt | 99 (/' "$work/docs/findings.md"
@@ -90,6 +91,24 @@ check 0 "$work"
 grep -qx '| metamorphic: refined | 7,000,000 | 3 | 2027-03-02 |' "$work/docs/findings.md" || fail 'the table has no record of checks'
 grep -q '^Recorded: .*\[metamorphic\](../results/records/0123456789/metamorphic)' "$work/docs/findings.md" ||
     fail "no heading: $(grep Recorded: "$work/docs/findings.md")"
+
+# The parts of a record are summed, and the table says how many of how many there are.
+record=$work/results/records/0123456789/mutation-skin
+mkdir -p "$record"
+printf 'skin\t1000\t800\t0\n' >"$record/mutation-1.tsv"
+printf 'skin\t1000\t900\t100\n' >"$record/mutation-2.tsv"
+printf '{\n"study": "mutation-skin",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"parts": 10,\n"parts_done": 2\n}\n' \
+    >"$record/study.json"
+page=results/reference/reliability.md
+check 1 "$work" --check
+says "$page: a table is not that of its source"
+check 0 "$work"
+grep -qx '| skin | 2,000 | 1,700 | 100 | 89.5 % | 2027-03-02, 0123456, 2 of 10 samples |' "$work/$page" ||
+    fail "no sum of parts: $(grep '^| skin' "$work/$page")"
+grep -q '^Recorded: .*\[mutation-skin\](../records/0123456789/mutation-skin)' "$work/$page" ||
+    fail "no heading: $(grep Recorded: "$work/$page")"
+grep -q "^| triangle | $(awk -F, '$1 == "triangle" { print $2 " | " $3 }' "$root/results/reference/mutation.csv")" "$work/$page" ||
+    fail "what no record has is not the reference's: $(grep '^| triangle' "$work/$page")"
 
 # What cannot be read is said, and nothing is written.
 rm "$work/results/reference/summary.json"

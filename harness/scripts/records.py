@@ -1,0 +1,40 @@
+"""Where results are stored: those of the newest record of a study of `make record`, or, while there is none, of
+the reference."""
+import csv
+import functools
+import json
+import os
+import subprocess
+from pathlib import Path
+
+
+def record_of(root, source):
+    """The newest record of a source's study: its folder, or None."""
+    folders = [file.parent for file in root.glob(f"results/records/*/{Path(source).parent}/study.json")
+               if (file.parent / Path(source).name).exists()]
+    return max(folders, key=lambda folder: study_of(folder)["ended"], default=None)
+
+
+def study_of(record):
+    return json.loads((record / "study.json").read_text())
+
+
+def file_of(root, source):
+    return (record_of(root, source) or root / "results" / "reference") / Path(source).name
+
+
+@functools.cache
+def has_changed(root, study):
+    """Whether the sources of a recorded study have changed since; None without the repository that tells."""
+    listed = subprocess.run(
+        ["bash", "harness/scripts/studies.sh", "harness/scripts/studies.tsv", "results/records", "results/record",
+         "list"], cwd=root, env={**os.environ, "ONLY": study}, capture_output=True, text=True, check=False)
+    if listed.returncode > 1:
+        return None
+    return any(reason in listed.stdout for reason in (" changed since ", " other sources than "))
+
+
+@functools.cache
+def csv_rows(root, source):
+    with open(file_of(root, source), newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
