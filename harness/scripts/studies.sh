@@ -288,7 +288,7 @@ JSON
 }
 # Parts whose times do not matter run JOBS at a time.
 run_parts() {
-    local part at_once=1 ended=0 pid pids=()
+    local part at_once=1 ended=0 status pid pids=()
     [ "$place" = alone ] || at_once=$jobs
     for part in $(seq "$parts"); do
         [ ! -e "$work/$name/part-$part/.passed" ] || continue
@@ -301,7 +301,12 @@ run_parts() {
         [ $ended = 0 ] || break
     done
     for pid in "${pids[@]}"; do
-        wait "$pid" || ended=$?
+        status=0
+        wait "$pid" 2>/dev/null || status=$?
+        case $status in
+        0 | 127) ;; # 127: it ended long ago, as a number that the system has given to another since
+        *) ended=$status ;;
+        esac
     done
     [ "$at_once" = 1 ] || keep # of those that ended together
     case $ended in
