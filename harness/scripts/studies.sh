@@ -279,7 +279,7 @@ keep() {
   "sources": "$sources",
   "sources_hash": "$hash",
   "program": "$program",
-  "command": "${command//\"/\\\"}"
+  "command": "$(sed 's/[\\"]/\\&/g' <<<"$command")"
 }
 JSON
     rm -rf "$folder"

@@ -24,7 +24,7 @@ row() { # NAME PLACE MINUTES PARTS SOURCES FILES COMMAND
 {
     echo "# a comment"
     row sums beside 30 3 core 'sum.csv log*' "\"$work/run\" sums"
-    row pictures beside 60 1 plots '*.csv figures/*.svg other/*.csv' "\"$work/run\" pictures"
+    row pictures beside 60 1 plots '*.csv figures/*.svg other/*.csv' "\"$work/run\" pictures && printf '\\t' >\"\$OUT/tab\""
 } >table.tsv
 printf 'work/\nrecords/\n' >.gitignore
 git add . && git commit -qm first
@@ -80,6 +80,8 @@ head=$(git rev-parse --short=10 HEAD)
 [ ! -e "records/$head/sums/one.svg" ] || fail "keeps a file that the table does not name"
 python3 -c 'import json, sys; s = json.load(open(sys.argv[1])); assert s["parts_done"] == 3 and s["failed"] == 0 and s["study"] == "sums"' \
     "records/$head/sums/study.json" || fail "study.json"
+python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["command"].endswith(sys.argv[2]), json.load(open(sys.argv[1]))' \
+    "records/$head/pictures/study.json" "printf '\\t' >\"\$OUT/tab\"" || fail "a command with a backslash"
 
 step="nothing is run again while the sources stay"
 run 0
