@@ -71,7 +71,7 @@ def heading_of_gathered(root, records, document, old):
     if not links:
         return []
     sources = f" The sources of {', '.join(changed)} have changed since." if changed else ""
-    return [f"Recorded: {', '.join(links)}; the others stand in the reference.{sources}", ""]
+    return [f"Recorded: {', '.join(links)}; what no record has stands in the reference.{sources}", ""]
 
 
 def by_method(rows, name="method"):
