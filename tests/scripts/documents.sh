@@ -94,6 +94,7 @@ grep -q '^Recorded: .*\[metamorphic\](../results/records/0123456789/metamorphic)
 
 # The parts of a record are summed, and the table says how many of how many there are.
 record=$work/results/records/0123456789/mutation-skin
+rm -rf "$work"/results/records/*/mutation-triangle
 mkdir -p "$record"
 printf 'skin\t1000\t800\t0\n' >"$record/mutation-1.tsv"
 printf 'skin\t1000\t900\t100\n' >"$record/mutation-2.tsv"
