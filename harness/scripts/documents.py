@@ -5,10 +5,9 @@ A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a doc
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
 record of a study of `make record`, or, while there is none, FILE in results/reference; checks, fuzz, coverage,
 mutation and soak are those of reliability_tables.py. Above the table stands when it was measured, and whether the
-study's sources have changed since. A number within a sentence is typed by
-hand; the sentence stands in SENTENCES with its values, and has to be in the document, rounded as there. --check
-writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot
-be read."""
+study's sources have changed since. A number within a sentence is typed by hand; the sentence stands in SENTENCES with
+its values, and has to be in the document, rounded as there. --check writes nothing, and says what disagrees. Status:
+0 all agree, 1 something disagrees, 4 a file is missing or cannot be read."""
 import functools
 import json
 import os

@@ -8,15 +8,24 @@ import subprocess
 from pathlib import Path
 
 
-def record_of(root, source):
-    """The newest record of a source's study: its folder, or None."""
-    folders = [file.parent for file in root.glob(f"results/records/*/{Path(source).parent}/study.json")
-               if (file.parent / Path(source).name).exists()]
-    return max(folders, key=lambda folder: study_of(folder)["ended"], default=None)
-
-
 def study_of(record):
     return json.loads((record / "study.json").read_text())
+
+
+def newest(root, studies, files):
+    """By name, the newest record of each study that has such files; both are patterns."""
+    found = {}
+    for file in sorted(root.glob(f"results/records/*/{studies}/{files}")):
+        record = file.parent
+        other = found.get(record.name, record)
+        found[record.name] = max(record, other, key=lambda folder: study_of(folder)["ended"])
+    return dict(sorted(found.items()))
+
+
+def record_of(root, source):
+    """The newest record of a source's study: its folder, or None."""
+    study, file = Path(source).parent.name, Path(source).name
+    return newest(root, study, file).get(study)
 
 
 def file_of(root, source):

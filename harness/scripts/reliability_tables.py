@@ -4,22 +4,12 @@ import csv
 import functools
 from collections import defaultdict, namedtuple
 
-from records import csv_rows, study_of
+from records import csv_rows, newest, study_of
 
 RELIABILITY = "reference/reliability.csv"
 MUTATION = "reference/mutation.csv"
 COVERAGE = "reference/coverage.csv"
 SOAK = "reference/soak.csv"
-
-
-def newest(root, studies, files):
-    """By name, the newest record of each study that has such files; both are patterns."""
-    found = {}
-    for file in sorted(root.glob(f"results/records/*/{studies}/{files}")):
-        record = file.parent
-        other = found.get(record.name, record)
-        found[record.name] = max(record, other, key=lambda folder: study_of(folder)["ended"])
-    return dict(sorted(found.items()))
 
 
 def rows_of(record, files):
@@ -32,6 +22,10 @@ def measured(record):
     study = study_of(record)
     done, parts = study.get("parts_done", 1), study.get("parts", 1)
     return f"{study['ended'][:10]}, {study['commit'][:7]}" + (f", {done} of {parts} samples" if done < parts else "")
+
+
+def stored(row):
+    return f"{row['date']}, {row['commit']}"
 
 
 def records_of_checks(root):
@@ -66,8 +60,7 @@ def fuzz_table(root):
     runs = defaultdict(list)
     with open(root / "tests/corpus/log.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            runs[row["target"]].append((int(row["cpu_seconds"]), int(row["executions"]), int(row["findings"]),
-                                        f"{row['date']}, {row['commit']}"))
+            runs[row["target"]].append((int(row["cpu_seconds"]), int(row["executions"]), int(row["findings"]), stored(row)))
     for record in records_of_fuzz(root).values():
         for target, *counts in rows_of(record, "fuzz*.tsv"):
             runs[target].append((*map(int, counts), measured(record)))
@@ -85,7 +78,7 @@ def records_of_coverage(root):
 
 
 def coverage_table(root):
-    rows = {row["folder"]: (int(row["branches"]), int(row["taken"]), f"{row['date']}, {row['commit']}")
+    rows = {row["folder"]: (int(row["branches"]), int(row["taken"]), stored(row))
             for row in csv_rows(root, COVERAGE)}
     for record in records_of_coverage(root).values():
         for folder, branches, taken in rows_of(record, "coverage.tsv"):
@@ -102,7 +95,7 @@ def records_of_mutation(root):
 
 def mutation_table(root):
     """Mutants that change no promised answer count neither way."""
-    rows = {row["module"]: (*(int(row[key]) for key in ("mutants", "killed", "equivalent")), f"{row['date']}, {row['commit']}")
+    rows = {row["module"]: (*(int(row[key]) for key in ("mutants", "killed", "equivalent")), stored(row))
             for row in csv_rows(root, MUTATION)}
     for record in records_of_mutation(root).values():
         parts = list(rows_of(record, "mutation*.tsv"))
