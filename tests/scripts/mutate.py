@@ -53,7 +53,8 @@ MODULES = {
     ),
     "skin": (
         "core/skin/*.c",
-        ["test_skin_create", "few answers", "test_skin"],
+        ["test_skin_create", "test_skin_positions", "few answers", "test_skin_bounds",
+         "test_skin"],
     ),
 }
 # They count what is allocated, by functions in place of libc's, and so cannot look for leaks.
@@ -140,6 +141,17 @@ def other_numbers(text):
     return [f"(2 * {text})", "0"]
 
 
+def is_length(tokens, at):
+    """Whether the number at `at` is the length of an array that is declared."""
+    if tokens[at - 1][1] != "[" or tokens[at + 1][1] != "]":
+        return False
+    name = at - 1
+    while tokens[name][1] in ("[", "]") or tokens[name + 1][1] == "]":
+        name -= 1
+    declared = tokens[name - 1]
+    return tokens[name][0] == declared[0] == "word" and declared[1] not in ("return", "sizeof")
+
+
 def split_arguments(tokens, at, end):
     """The arguments of the call whose bracket is at `at`: pairs of positions in the source."""
     parts, depth, first = [], 0, at + 1
@@ -193,7 +205,8 @@ def mutants_of(path):
         brackets += (text in "([") - (text in ")]")
         if kind == "number" and (depth > 0 or in_define):
             for other in other_numbers(text):
-                add("constant", start, end, other)
+                if other == "0" or not is_length(tokens, k):  # more room changes no answer
+                    add("constant", start, end, other)
         if depth == 0:
             continue
         if kind == "mark" and text in OTHER_MARK:

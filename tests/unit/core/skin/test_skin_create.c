@@ -80,6 +80,9 @@ TEST(weights_are_merged_and_normalised)
     assert_true(fabs((double)skin->weight[16] - 4 / 9.0) < 1e-6);
     assert_true((double)skin->weight[16] + (double)skin->weight[17] == 1.0);
     assert_int_equal(field->count, 32);
+    assert_int_equal(field->most, 8);
+    assert_int_equal(field->bytes,
+                     sizeof *field + sizeof *skin + 10 * sizeof(uint32_t) + 18 * 6);
     assert_string_equal(field->kind->name, "skin");
     mote_field_destroy(field);
     mote_field *still = NULL;
@@ -100,7 +103,7 @@ static const bad_targets bad[] = {
     {0, {0, 0, 0}, {0}, {{0, 0, 0}}, "there are 1 to 65535 morph targets, not 0"},
     {65536, {0, 0, 0}, {0}, {{0, 0, 0}}, "there are 1 to 65535 morph targets, not 65536"},
     {1, {1, 2, 0}, {0}, {{0, 0, 0}}, "morph target 0 starts at 1, not at 0"},
-    {2, {0, 2, 1}, {0, 1, 0}, {{0, 0, 0}}, "morph target 1 ends at 1, before its start at 2"},
+    {2, {0, 3, 2}, {0, 1, 2}, {{0, 0, 0}}, "morph target 1 ends at 2, before its start at 3"},
     {2,
      {0, 1, 2},
      {0, 9, 0},
@@ -141,6 +144,30 @@ TEST(create_morphs_with_bad_input_says_what)
     mote_mesh_destroy(mesh);
 }
 
+TEST(create_morphs_with_bad_bones_says_what)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    uint32_t start[10];
+    uint16_t bone[9] = {0};
+    double weight[9] = {1, 1, 1, 1, -1, 1, 1, 1, 1};
+    for (uint32_t v = 0; v < 10; ++v)
+        start[v] = v;
+    static const uint32_t first[2] = {0, 1}, vertex[1] = {2};
+    static const mote_vec3 move[1] = {{1, 0, 0}};
+    const mote_morph_targets targets = {1, first, vertex, move};
+    for (uint32_t bones = 1; bones < 3; ++bones) {
+        mote_field mark;
+        mote_field *field = &mark;
+        assert_int_equal(
+            mote_field_create_morphs(mesh, bones, start, bone, weight, &targets, &field),
+            MOTE_EINVAL);
+        assert_string_equal(mote_error_text(),
+                            "vertex 4 has the weight -1; it must be finite and not negative");
+        assert_ptr_equal(field, &mark);
+    }
+    mote_mesh_destroy(mesh);
+}
+
 /* Displacements are sorted by vertex, zeros are dropped, and sizes are powers of two. */
 TEST(targets_are_ordered_by_vertex)
 {
@@ -170,6 +197,33 @@ TEST(targets_are_ordered_by_vertex)
     assert_true(fabs((double)morph->move[1][2] * morph->size[2] - 3e-10) < 1e-16);
     assert_string_equal(field->kind->name, "morphs");
     assert_int_equal(field->count, 4 + 3 + 3);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
+/* Each target moves vertex 8 along one axis, and the middle two move vertex 5 as well. */
+TEST(targets_along_one_axis_are_kept_and_counted)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    static const uint32_t start[5] = {0, 1, 3, 5, 6}, vertex[6] = {8, 8, 5, 8, 5, 8};
+    static const mote_vec3 move[6] = {{1, 0, 0}, {0, 1, 0},  {0, -1, 0},
+                                      {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}};
+    const mote_morph_targets targets = {4, start, vertex, move};
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const mote_skin *skin = mote_field_skin(field);
+    const mote_morph *morph = &skin->morph;
+    static const float of_5[2][3] = {{0, -1, 0}, {0, 0, -1}};
+    static const float of_8[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}};
+    assert_int_equal(morph->start[9], 6);
+    assert_int_equal(morph->most, 4);
+    assert_memory_equal(morph->move[morph->start[5]], of_5, sizeof of_5);
+    assert_memory_equal(morph->move[morph->start[8]], of_8, sizeof of_8);
+    assert_int_equal(field->most, 4 + 3 + 4);
+    const size_t bones = 10 * sizeof(uint32_t) + 9 * 6;
+    const size_t moves = 10 * sizeof(uint32_t) + 6 * 14 + 4 * sizeof(double);
+    assert_int_equal(field->bytes, sizeof *field + sizeof *skin + bones + moves);
     mote_field_destroy(field);
     mote_mesh_destroy(mesh);
 }
