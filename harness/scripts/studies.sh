@@ -32,6 +32,7 @@ fi
 commit=$(git rev-parse --short=10 HEAD)
 program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
 no_texts=':!*.md'
+declare -A lists # of sources, by @NAME
 compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
@@ -101,15 +102,33 @@ recorded_parts() { # STUDY.JSON
         value "$1" parts_passed | tr ' ' '\n'
     fi
 }
+# Sources with the paths of each @NAME in its place.
+paths_of() { # SOURCES
+    local word words paths=''
+    read -ra words <<<"$1"
+    for word in "${words[@]}"; do
+        if [[ $word = @* ]]; then
+            [ -n "${lists[$word]:-}" ] || fail "$table: $name: there is no line $word"
+            word=${lists[$word]}
+        fi
+        paths="$paths $word"
+    done
+    echo "${paths# }"
+}
 # Reads a line of the table into name, place, minutes, parts, sources, files, command and hash.
 next_study() {
     while IFS=$'\t' read -r name place minutes parts sources files command; do
         [[ $name = "" || $name = \#* ]] && continue
+        if [[ $name = @* ]]; then
+            lists[$name]=$place
+            continue
+        fi
         if [[ ! $place =~ ^(alone|beside)$ || ! $minutes =~ ^[0-9]+$ || ! $parts =~ ^[0-9]+$ || -z $command ]]; then
             fail "$table: $name: write NAME, alone or beside, minutes and number of parts, sources, files and command"
         fi
         names="$names $name"
         [ -z "$only" ] || [[ " $only " = *" $name "* ]] || continue
+        sources=$(paths_of "$sources") || exit
         # shellcheck disable=SC2086 # a list of paths
         hash=$(hash_of $sources) || exit
         return 0

@@ -121,6 +121,15 @@ git commit -qam "the same files"
 run 0 list
 calls ""
 
+sed -i -e "s/core core\/a.c/core @more/" -e "1a @more\tcore\/a.c core\/b.c" table.tsv
+git commit -qam "the same files by a name"
+run 0 list
+sed -i.kept 's/core @more/core @other/' table.tsv
+run 4 list
+tells "table.tsv: sums: there is no line @other"
+mv table.tsv.kept table.tsv
+calls ""
+
 step="a part that would end too late is not begun"
 echo 2 >plots/c.gp
 git commit -qam third
