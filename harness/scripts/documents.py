@@ -149,6 +149,12 @@ def reference_table(root):
                f"{size(row['heap_live_bytes'])} |")
 
 
+def figure_lines(root, source, what):
+    """A figure below a table."""
+    yield ""
+    yield f"![{what}](../{file_of(root, source).relative_to(root)})"
+
+
 PARTICLES = ["particle-paper:n=%d,law=log" % n for n in (1, 2, 3, 4, 5, 8, 16)]
 
 
@@ -165,6 +171,7 @@ def dynamics_table(root):
         tried = int(rows[scene, "certified"]["approaches"])
         name = scene if tried == 1000 else f"{scene} ({tried})"
         yield f"| {name} | " + " | ".join(cells) + " |"
+    yield from figure_lines(root, "dynamics/dynamics.svg", "Share of approaches with a pass through over the number of particles")
 
 
 def digits(value):
@@ -315,9 +322,7 @@ def pairs_table(root):
             if label != "aabb-tree":
                 cells.append(accuracy_text(row) if row else "refused")
         yield f"| {' | '.join(cells)} |"
-    figure = file_of(root, "bench/size-time.svg").relative_to(root)
-    yield ""
-    yield f"![Time of a query of two letters W over their number of triangles](../{figure})"
+    yield from figure_lines(root, "bench/size-time.svg", "Time of a query of two letters W over their number of triangles")
 
 
 def measured(value):
@@ -347,9 +352,7 @@ def extremes_table(root):
     yield "| --- " + "| ---: " * len(verdicts) + "|"
     for method in methods:
         yield f"| `{method['name']}` | " + " | ".join(str(method["verdicts"][key]) for key in verdicts) + " |"
-    figure = file_of(root, "extremes/extremes.svg").relative_to(root)
-    yield ""
-    yield f"![Verdict on each method in each numerical extreme](../{figure})"
+    yield from figure_lines(root, "extremes/extremes.svg", "Verdict on each method in each numerical extreme")
 
 
 ABLATION_SCENES = ("ww", "fast-25", "jump", "comb", "ww-1m")
