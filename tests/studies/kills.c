@@ -17,8 +17,8 @@
 #define FRAMES 20
 #define CELLS 90
 #define SWEEP                                                                                  \
-    "run tt --frames 1-20 --replicates 30 --seed 3 --method particle-paper:n=2 --method "      \
-    "fcl-aabb --method aabb-tree"
+    "run tt --frames 1-20 --stride 1 --replicates 30 --seed 3 --method particle-paper:n=2 "    \
+    "--method fcl-aabb --method aabb-tree"
 typedef struct study {
     const char *base;
     char directory[256], said[256], line[640];
