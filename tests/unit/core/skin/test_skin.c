@@ -15,30 +15,64 @@
 static const skin_plan plans[] = {{1, 1, 0}, {5, 2, 0},  {12, 4, 0}, {40, 9, 0},
                                   {0, 0, 1}, {0, 0, 12}, {12, 4, 6}, {300, 5, 40}};
 
+/* Makes the second body `part` times as large as the first: units that are the skin's, the
+   body's and the pair's are no longer the same. */
+static void shrink_second(skinned *k, double part, skin_plan plan)
+{
+    scene *s = &k->s;
+    mote_deform_destroy(s->deform[1]);
+    mote_field_destroy(s->field[1]);
+    mote_mesh_destroy(s->mesh[1]);
+    s->mesh[1] = make_torus(23, 10, 2.5 * part);
+    s->field[1] = skin_of_torus(s->mesh[1], &plan);
+    s->body[1] = (mote_body){.mesh = s->mesh[1], .field = s->field[1]};
+    need(mote_deform_create(&s->body[1], &s->deform[1]) == MOTE_OK);
+}
+
+static void check_queries(skinned *k, size_t plan, int *contacts, int *apart)
+{
+    mote_certificate *c = certificate_of(&k->s, NULL);
+    for (int frame = 0; frame < 40; ++frame) {
+        next_pose(k, wildness[frame % 4], frame % 3 ? 2.5 : 1.2);
+        const double truth = scene_truth(&k->s);
+        mote_certificate_answer a;
+        mote_certificate_query(c, &k->s.frame, NULL, -1, &a);
+        test_row("plan %zu, frame %d", plan, frame);
+        assert_true(fabs(a.distance - truth) <= 1e-12 * k->s.length);
+        assert_true(a.lower <= truth);
+        assert_true(a.lower >= truth - 1e-12 * largest_term(k) * k->s.length);
+        *contacts += !(truth > 0);
+        *apart += truth > 0;
+    }
+    mote_certificate_destroy(c);
+}
+
 TEST(query_of_random_affine_bones_equals_all_pairs)
 {
     int contacts = 0, apart = 0;
     for (size_t i = 0; i < ROWS_OF(plans); ++i) {
         skinned k;
         skinned_init(&k, 22, 10, plans[i]);
-        mote_certificate *c = certificate_of(&k.s, NULL);
-        for (int frame = 0; frame < 40; ++frame) {
-            next_pose(&k, wildness[frame % 4], frame % 3 ? 2.5 : 1.2);
-            const double truth = scene_truth(&k.s);
-            mote_certificate_answer a;
-            mote_certificate_query(c, &k.s.frame, NULL, -1, &a);
-            test_row("plan %zu, frame %d", i, frame);
-            assert_true(fabs(a.distance - truth) <= 1e-12 * k.s.length);
-            assert_true(a.lower <= truth);
-            assert_true(a.lower >= truth - 1e-12 * largest_term(&k) * k.s.length);
-            contacts += !(truth > 0);
-            apart += truth > 0;
-        }
-        mote_certificate_destroy(c);
+        check_queries(&k, i, &contacts, &apart);
         skinned_free(&k);
     }
     assert_true(contacts > 40);
     assert_true(apart > 100);
+}
+
+TEST(query_of_bodies_of_unlike_sizes_equals_all_pairs)
+{
+    static const skin_plan all[] = {{5, 2, 0}, {0, 0, 3}, {12, 4, 6}};
+    int contacts = 0, apart = 0;
+    for (size_t i = 0; i < ROWS_OF(all); ++i) {
+        skinned k;
+        skinned_init(&k, 22, 10, all[i]);
+        shrink_second(&k, i == 0 ? 0.003 : 0.1, all[i]);
+        check_queries(&k, i, &contacts, &apart);
+        skinned_free(&k);
+    }
+    assert_true(contacts > 0);
+    assert_true(apart > 60);
 }
 
 /* Many bodies: the box of a tree's root holds every vertex. */
