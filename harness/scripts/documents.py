@@ -149,10 +149,8 @@ def reference_table(root):
                f"{size(row['heap_live_bytes'])} |")
 
 
-def figure_lines(root, source, what):
-    """A figure below a table."""
-    yield ""
-    yield f"![{what}](../{file_of(root, source).relative_to(root)})"
+def figure(root, source, what):
+    return f"![{what}](../{file_of(root, source).relative_to(root)})"
 
 
 PARTICLES = ["particle-paper:n=%d,law=log" % n for n in (1, 2, 3, 4, 5, 8, 16)]
@@ -171,7 +169,8 @@ def dynamics_table(root):
         tried = int(rows[scene, "certified"]["approaches"])
         name = scene if tried == 1000 else f"{scene} ({tried})"
         yield f"| {name} | " + " | ".join(cells) + " |"
-    yield from figure_lines(root, "dynamics/dynamics.svg", "Share of approaches with a pass through over the number of particles")
+    yield ""
+    yield figure(root, "dynamics/dynamics.svg", "Share of approaches with a pass through over the number of particles")
 
 
 def digits(value):
@@ -322,7 +321,8 @@ def pairs_table(root):
             if label != "aabb-tree":
                 cells.append(accuracy_text(row) if row else "refused")
         yield f"| {' | '.join(cells)} |"
-    yield from figure_lines(root, "bench/size-time.svg", "Time of a query of two letters W over their number of triangles")
+    yield ""
+    yield figure(root, "bench/size-time.svg", "Time of a query of two letters W over their number of triangles")
 
 
 def measured(value):
@@ -352,7 +352,8 @@ def extremes_table(root):
     yield "| --- " + "| ---: " * len(verdicts) + "|"
     for method in methods:
         yield f"| `{method['name']}` | " + " | ".join(str(method["verdicts"][key]) for key in verdicts) + " |"
-    yield from figure_lines(root, "extremes/extremes.svg", "Verdict on each method in each numerical extreme")
+    yield ""
+    yield figure(root, "extremes/extremes.svg", "Verdict on each method in each numerical extreme")
 
 
 ABLATION_SCENES = ("ww", "fast-25", "jump", "comb", "ww-1m")
@@ -389,8 +390,7 @@ def ingredients(root, label, scene="comb"):
 
 
 def ingredients_figure(root):
-    figure = file_of(root, "ingredients/ingredients.svg").relative_to(root)
-    yield f"![What each part of the tracked particles brings on five scenes](../{figure})"
+    yield figure(root, "ingredients/ingredients.svg", "What each part of the tracked particles brings on five scenes")
 
 
 def launches(root):
