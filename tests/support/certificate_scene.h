@@ -38,6 +38,16 @@ static inline void check_exact(const scene *s, mote_certificate *c, double truth
     assert_true(truth > 0 || a.distance <= 0);
 }
 
+/* Takes a field in the place of a body's own. */
+static inline void use_field(scene *s, int b, mote_field *field)
+{
+    mote_deform_destroy(s->deform[b]);
+    mote_field_destroy(s->field[b]);
+    s->field[b] = field;
+    s->body[b].field = field;
+    need(mote_deform_create(&s->body[b], &s->deform[b]) == MOTE_OK);
+}
+
 /* Replaces both fields by linear modes: a bend and a bulge. */
 static inline void use_modes(scene *s)
 {
@@ -50,12 +60,10 @@ static inline void use_modes(scene *s)
             modes[v] = mote_vec3_make(0, 40 * sin(9 * x.x), 25 * x.x * x.x);
             modes[mesh->vertex_count + v] = mote_scale(x, 1e3 * x.z);
         }
-        mote_deform_destroy(s->deform[b]);
-        mote_field_destroy(s->field[b]);
-        need(mote_field_create_modes(modes, 2, mesh->vertex_count, &s->field[b]) == MOTE_OK);
+        mote_field *field = NULL;
+        need(mote_field_create_modes(modes, 2, mesh->vertex_count, &field) == MOTE_OK);
         free(modes);
-        s->body[b].field = s->field[b];
-        need(mote_deform_create(&s->body[b], &s->deform[b]) == MOTE_OK);
+        use_field(s, b, field);
     }
 }
 

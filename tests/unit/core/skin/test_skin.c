@@ -20,13 +20,11 @@ static const skin_plan plans[] = {{1, 1, 0}, {5, 2, 0},  {12, 4, 0}, {40, 9, 0},
 static void shrink_second(skinned *k, double part, skin_plan plan)
 {
     scene *s = &k->s;
-    mote_deform_destroy(s->deform[1]);
-    mote_field_destroy(s->field[1]);
-    mote_mesh_destroy(s->mesh[1]);
+    mote_mesh *before = s->mesh[1];
     s->mesh[1] = make_torus(23, 10, 2.5 * part);
-    s->field[1] = skin_of_torus(s->mesh[1], &plan);
-    s->body[1] = (mote_body){.mesh = s->mesh[1], .field = s->field[1]};
-    need(mote_deform_create(&s->body[1], &s->deform[1]) == MOTE_OK);
+    s->body[1].mesh = s->mesh[1];
+    use_field(s, 1, skin_of_torus(s->mesh[1], &plan));
+    mote_mesh_destroy(before);
 }
 
 static void check_queries(skinned *k, size_t plan, int *contacts, int *apart)

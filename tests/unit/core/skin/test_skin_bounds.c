@@ -162,13 +162,10 @@ TEST(boxes_enclose_what_steep_targets_move)
         move[v] = mote_vec3_make(0, v == 0 || v == n - 1 ? 0 : v < n / 2 ? -1.99 : 1.99, 0);
     }
     const mote_morph_targets targets = {1, start, vertex, move};
-    mote_deform_destroy(s.deform[0]);
-    mote_field_destroy(s.field[0]);
-    assert_int_equal(
-        mote_field_create_morphs(s.mesh[0], 0, NULL, NULL, NULL, &targets, &s.field[0]),
-        MOTE_OK);
-    s.body[0].field = s.field[0];
-    assert_int_equal(mote_deform_create(&s.body[0], &s.deform[0]), MOTE_OK);
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(s.mesh[0], 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    use_field(&s, 0, field);
     mote_certificate *c = certificate_of(&s, NULL);
     int narrowed = 0;
     for (int frame = 0; frame < 12; ++frame) {
@@ -204,12 +201,10 @@ static void use_bones(skinned *k, uint32_t step, double weight)
             weights[v][0] = weight;
             weights[v][1] = 1 - weight;
         }
-        mote_deform_destroy(k->s.deform[b]);
-        mote_field_destroy(k->s.field[b]);
+        mote_field *field = NULL;
         need(mote_field_create_skin(k->s.mesh[b], k->bones, start, bone[0], weights[0],
-                                    &k->s.field[b]) == MOTE_OK);
-        k->s.body[b].field = k->s.field[b];
-        need(mote_deform_create(&k->s.body[b], &k->s.deform[b]) == MOTE_OK);
+                                    &field) == MOTE_OK);
+        use_field(&k->s, b, field);
         free(start);
         free(bone);
         free(weights);

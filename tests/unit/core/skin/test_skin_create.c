@@ -92,6 +92,28 @@ TEST(weights_are_merged_and_normalised)
     mote_mesh_destroy(mesh);
 }
 
+/* The field of targets alone. */
+static mote_field *morphs_of(const mote_mesh *mesh, const mote_morph_targets *targets)
+{
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, targets, &field),
+                     MOTE_OK);
+    return field;
+}
+
+static void expect_morphs_error(const mote_mesh *mesh, uint32_t bones, const uint32_t *start,
+                                const uint16_t *bone, const double *weight,
+                                const mote_morph_targets *targets, const char *text)
+{
+    mote_field mark;
+    mote_field *field = &mark;
+    assert_int_equal(
+        mote_field_create_morphs(mesh, bones, start, bone, weight, targets, &field),
+        MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), text);
+    assert_ptr_equal(field, &mark);
+}
+
 /* Targets with one error each. */
 typedef struct bad_targets {
     uint32_t count, start[3], vertex[3];
@@ -133,13 +155,8 @@ TEST(create_morphs_with_bad_input_says_what)
     for (size_t i = 0; i < ROWS_OF(bad); ++i) {
         const mote_morph_targets targets = {bad[i].count, bad[i].start, bad[i].vertex,
                                             bad[i].move};
-        mote_field mark;
-        mote_field *field = &mark;
         test_row("%s", bad[i].text);
-        assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
-                         MOTE_EINVAL);
-        assert_string_equal(mote_error_text(), bad[i].text);
-        assert_ptr_equal(field, &mark);
+        expect_morphs_error(mesh, 0, NULL, NULL, NULL, &targets, bad[i].text);
     }
     mote_mesh_destroy(mesh);
 }
@@ -155,16 +172,9 @@ TEST(create_morphs_with_bad_bones_says_what)
     static const uint32_t first[2] = {0, 1}, vertex[1] = {2};
     static const mote_vec3 move[1] = {{1, 0, 0}};
     const mote_morph_targets targets = {1, first, vertex, move};
-    for (uint32_t bones = 1; bones < 3; ++bones) {
-        mote_field mark;
-        mote_field *field = &mark;
-        assert_int_equal(
-            mote_field_create_morphs(mesh, bones, start, bone, weight, &targets, &field),
-            MOTE_EINVAL);
-        assert_string_equal(mote_error_text(),
+    for (uint32_t bones = 1; bones < 3; ++bones)
+        expect_morphs_error(mesh, bones, start, bone, weight, &targets,
                             "vertex 4 has the weight -1; it must be finite and not negative");
-        assert_ptr_equal(field, &mark);
-    }
     mote_mesh_destroy(mesh);
 }
 
@@ -176,9 +186,7 @@ TEST(targets_are_ordered_by_vertex)
     static const mote_vec3 move[5] = {
         {3, 0, 0}, {0, -1, 0}, {0, 0, 0}, {1e-9, 0, 3e-10}, {0, 0, 0}};
     const mote_morph_targets targets = {3, start, vertex, move};
-    mote_field *field = NULL;
-    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
-                     MOTE_OK);
+    mote_field *field = morphs_of(mesh, &targets);
     const mote_skin *skin = mote_field_skin(field);
     assert_non_null(skin);
     assert_int_equal(skin->bones, 1);
@@ -209,9 +217,7 @@ TEST(targets_along_one_axis_are_kept_and_counted)
     static const mote_vec3 move[6] = {{1, 0, 0}, {0, 1, 0},  {0, -1, 0},
                                       {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}};
     const mote_morph_targets targets = {4, start, vertex, move};
-    mote_field *field = NULL;
-    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
-                     MOTE_OK);
+    mote_field *field = morphs_of(mesh, &targets);
     const mote_skin *skin = mote_field_skin(field);
     const mote_morph *morph = &skin->morph;
     static const float of_5[2][3] = {{0, -1, 0}, {0, 0, -1}};
@@ -236,9 +242,7 @@ TEST(tree_of_another_mesh_is_refused)
     static const uint32_t start[2] = {0, 1}, vertex[1] = {2};
     static const mote_vec3 move[1] = {{1, 0, 0}};
     const mote_morph_targets targets = {1, start, vertex, move};
-    mote_field *field = NULL;
-    assert_int_equal(mote_field_create_morphs(own, 0, NULL, NULL, NULL, &targets, &field),
-                     MOTE_OK);
+    mote_field *field = morphs_of(own, &targets);
     const mote_cert_tree_options options = {.length = 1, .width = 8, .linear_fits = true};
     mote_mesh *const meshes[3] = {own, more, other};
     for (int i = 0; i < 3; ++i) {
@@ -263,9 +267,7 @@ TEST(targets_of_any_finite_size_are_kept)
     static const uint32_t start[2] = {0, 1}, vertex[1] = {2};
     static const mote_vec3 move[1] = {{DBL_MAX, -DBL_MAX, 0.75 * DBL_MAX}};
     const mote_morph_targets targets = {1, start, vertex, move};
-    mote_field *field = NULL;
-    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
-                     MOTE_OK);
+    mote_field *field = morphs_of(mesh, &targets);
     const mote_skin *skin = mote_field_skin(field);
     const mote_morph *morph = &skin->morph;
     for (int k = 0; k < 3; ++k) {
