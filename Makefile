@@ -26,6 +26,7 @@
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
 #   make impacts [PROFILE=quick|full] [OUT=DIR]      is an impact ever missed, or false?
+#   make impact-speed [PROFILE=quick|full] [OUT=DIR] impacts within steps: certified, samples, others
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
@@ -231,6 +232,10 @@ impacts: program-impacts program-impact_steps
 	    --queries $(if $(filter quick,$(PROFILE)),5000,100000)
 	@$(BUILD)/tests/impact_steps --out $(OUT)/impact-steps.csv \
 	    --intervals $(if $(filter quick,$(PROFILE)),20,100) ww mv rigid-ww rigid-mv
+
+.PHONY: impact-speed
+impact-speed: build
+	@harness/scripts/impact_speed.sh $(MOTE) $(PROFILE) $(call out,impact-speed)
 
 # PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
 # into results/reference; ONLY="kills fuzz" runs some of the studies.
