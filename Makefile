@@ -9,7 +9,7 @@
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make record [OUT=DIR]                             keep a run's summary in results/records
 #   make readme-figure [OUT=DIR]                     measure the README's figure again
-#   make engines [PROFILE=quick] [RECORD=1] [OUT=DIR]  other engines and ours, asked the same
+#   make engines [PROFILE=quick] [OUT=DIR]           other engines and ours, asked the same
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
 #   make auto [PROFILE=quick|full] [OUT=DIR]         auto beside certified and stream in every scenario
@@ -136,13 +136,11 @@ readme-figure: build page
 	@harness/scripts/bench.sh $(MOTE) fig3 $(call out,fig3)
 	@cp $(call out,fig3)/figures/fig3.svg results/reference/fig3.svg
 
-# Other engines and ours, asked for contacts and for distances of the same frames. RECORD=1: into the
-# tables of docs/peers.md.
+# Other engines and ours, asked for contacts and for distances of the same frames.
 .PHONY: engines
 engines: build
 	@harness/scripts/bench.sh $(MOTE) engines$(if $(filter quick,$(PROFILE)),-quick) \
 	    $(call out,engines)
-	@$(if $(RECORD),harness/scripts/peers.sh $(call out,engines) docs/peers.md)
 
 # FCL as Debian compiles it against FCL compiled here.
 .PHONY: fcl-flags

@@ -3,7 +3,8 @@
 
 A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
-record of a study of `make record`, or, while there is none, FILE in results/reference; checks, fuzz, coverage,
+record of a study of `make record`, or, while there is none, FILE in results/reference; what follows a "#" is one of
+several tables of the same file; checks, fuzz, coverage,
 mutation and soak are those of reliability_tables.py. Above the table stands when it was measured, and whether the
 study's sources have changed since. A number within a sentence is typed by hand; the sentence stands in SENTENCES with
 its values, and has to be in the document, rounded as there. --check writes nothing, and says what disagrees. Status:
@@ -16,7 +17,12 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # no folder beside the sources
-from records import csv_rows, file_of, has_changed, record_of, study_of
+from character_tables import CHARACTERS, PARTS, characters, characters_table, parts_table
+from engine_tables import ENGINES, PEERS, engines_table, is_tree, ode_to_fcl, peers_tables, times
+from impact_tables import (FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
+                           long_steps_table, short_steps_table, sums)
+from number_text import digits, exact_text, interval, percent, size
+from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, verdicts_right
 from reliability_tables import GATHERED, checks, soaked
 
 SUMMARY = "reference/summary.json"
@@ -24,15 +30,14 @@ DYNAMICS = "dynamics/dynamics.csv"
 CLAIMS = "claims/claims.json"
 BODIES = "bodies/bodies.csv"
 CROWDS = "bodies/characters-summary.csv"
-ENGINES = "engines/summary.csv"
 BENCH = "bench/summary.csv"
 EXTREMES = "extremes/extremes.json"
 RATIOS = "ratios/ratios.txt"
 AUTO = "auto/auto.txt"
-CHARACTERS = "character-speed/characters.md"
 ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
 VERDICTS = "verdicts/verdicts.txt"
+READERS = "readers/readers.md"
 RACES = "reference/races.csv"
 END = "<!-- to here -->"
 CHANGED = "its sources have changed since"
@@ -48,7 +53,7 @@ def heading(root, source, document, old):
         return []
     if source in GATHERED:
         return heading_of_gathered(root, GATHERED[source].records(root), document, old)
-    record = record_of(root, source)
+    record = record_of(root, source.partition("#")[0])
     if not record:
         when = max(row["measured"] for row in csv_rows(root, source))[:10]
         return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
@@ -71,11 +76,6 @@ def heading_of_gathered(root, records, document, old):
         return []
     sources = f" The sources of {', '.join(changed)} have changed since." if changed else ""
     return [f"Recorded: {', '.join(links)}; what no record has stands in the reference.{sources}", ""]
-
-
-def by_method(rows, name="method"):
-    """Rows by scenario and method, or by scenario and label."""
-    return {(row["scenario"], row[name]): row for row in rows}
 
 
 @functools.cache
@@ -101,30 +101,6 @@ def loops(root, methods, others=False):
 
 def races(root):
     return csv_rows(root, RACES)
-
-
-def plain(value):
-    """Three digits or so: 5.5, 11.6, 120, 1,249."""
-    return f"{value:,.1f}" if value < 20 else f"{value:,.0f}"
-
-
-def interval(value, low, high):
-    return f"{plain(value)} ({plain(low)} to {plain(high)})"
-
-
-def size(count):
-    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.0f} kB"
-
-
-def percent(share):
-    """8.1 or 22."""
-    value = 100 * share
-    return f"{value + 1e-9:.0f}" if round(value, 1) >= 10 else f"{value:.1f}"
-
-
-def exact_text(share):
-    """100 % or 57.5 %."""
-    return f"{100 * share:.1f}".removesuffix(".0") + " %"
 
 
 def reference_table(root):
@@ -171,11 +147,6 @@ def dynamics_table(root):
         yield f"| {name} | " + " | ".join(cells) + " |"
     yield ""
     yield figure(root, "dynamics/dynamics.svg", "Share of approaches with a pass through over the number of particles")
-
-
-def digits(value):
-    """Three digits, and thousands set apart: 0.18, 9.57, 28.1, 1,280."""
-    return f"{value:,.0f}" if value >= 100 else f"{value:#.3g}".rstrip(".")
 
 
 LETTERS = {0.1: "w-1000-0.1", 1: "w-1000-1", 4: "w-1000-4"}
@@ -235,43 +206,6 @@ def gains(root, options):
     rows = json.loads(file_of(root, "bodies/bodies.json").read_text())["gains"]
     return [next(row["gain"] for row in rows if row["bodies"] == 1000 and row["method"] == f"certified:{options}"
                  and abs(row["near_pairs"] - density) < 1e-9) for density in LETTERS]
-
-
-OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
-
-
-def verdicts_right(row):
-    return float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0
-
-
-def answers_of(root, scenario):
-    """The finished rows of a scenario in the run of all engines that have no wrong verdict."""
-    return [row for row in csv_rows(root, ENGINES)
-            if row["scenario"] == scenario and row["status"] == "ok" and verdicts_right(row)]
-
-
-ENGINE_SCENES = (("ww", "ww, distance"), ("mv", "mv, distance"), ("tt-distance", "tt, distance"), ("ww-contact", "ww, contact"),
-                 ("mv-contact", "mv, contact"), ("tt", "tt, contact"), ("rigid-ww", "path of ww, rigid, contact"),
-                 ("rigid-mv", "path of mv, rigid, contact"))
-
-
-def fastest(rows, statistic, wanted):
-    """The least time of the methods that are wanted, and the label of the one that takes it."""
-    return min((float(row["total_ns_" + statistic]), row["label"]) for row in rows if wanted(row["method"]))
-
-
-def engines_table(root):
-    yield ("| scene, question | `certified`: median, mean in µs | fastest by the median | times | fastest by the mean | times | "
-           "FCL, median | `aabb-tree`, median |")
-    yield "| --- | ---: | --- | ---: | --- | ---: | ---: | ---: |"
-    for scenario, name in ENGINE_SCENES:
-        rows = answers_of(root, scenario)
-        (median, _), (mean, _) = (fastest(rows, key, lambda method: method == "certified") for key in ("median", "mean"))
-        by_median, by_mean = (fastest(rows, key, lambda method: method not in OWN) for key in ("median", "mean"))
-        fcl = fastest(rows, "median", lambda method: method.startswith("fcl-"))
-        tree = fastest(rows, "median", lambda method: method == "aabb-tree")
-        yield (f"| {name} | {digits(median / 1e3)}, {digits(mean / 1e3)} | `{by_median[1]}` | {digits(by_median[0] / median)} | "
-               f"`{by_mean[1]}` | {digits(by_mean[0] / mean)} | {digits(fcl[0] / median)} | {digits(tree[0] / median)} |")
 
 
 # Of these, only contact is asked, or no body deforms and nobody has to refit (the table of engines has some); crowd is no pair.
@@ -442,20 +376,21 @@ def auto_table(root):
         yield f"| {name} | {' | '.join(map(digits, times))} | {median:.2f} | {total:.2f} |"
 
 
-@functools.cache
-def characters(root):
-    """Median and 95th percentile of certified in microseconds, by scenario."""
-    rows = (re.findall(r"[^|]+", line) for line in file_of(root, CHARACTERS).read_text().splitlines()[2:])
-    return {name.strip(): [time.split()[0] for time in (median, p95)] for name, median, p95, *_ in rows}
+def readers_table(root):
+    """The table of make readers, but its last two columns."""
+    for line in file_of(root, READERS).read_text().split("\n\n")[0].splitlines():
+        yield "|".join(line.split("|")[:-3]) + "|"
 
 
-def characters_table(root):
-    yield from file_of(root, CHARACTERS).read_text().splitlines()
+def readers_total(root):
+    """How many files there are, how many mote reads as meshes, and how many it refuses."""
+    return map(int, re.findall(r"\d+", file_of(root, READERS).read_text().split("\n\n")[1])[:3])
 
 
 TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
-          CROWDS: crowd_table, ENGINES: engines_table, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
-          CHARACTERS: characters_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
+          CROWDS: crowd_table, ENGINES: engines_table, PEERS: peers_tables, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
+          CHARACTERS: characters_table, PARTS: parts_table, SPEED: impact_table, FCL_SPEED: fcl_table,
+          LONG_STEPS: long_steps_table, SHORT_STEPS: short_steps_table, READERS: readers_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
           VERDICTS: verdicts_table,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
 
@@ -574,6 +509,27 @@ SENTENCES = [
         reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,)),
     ("README.md", "On the paper's letters the particles need {:.1f} to {:.1f} of the time of the fastest exact query", lambda root: (
         1 / times_of_particles(root, "ww"), 1 / times_of_particles(root, "mv"))),
+    ("README.md", "(FCL or ODE) takes {} to {} times as long, by the medians of one run", lambda root: (
+        map(digits, span([times(root, scenario) for scenario in ("ww", "mv", "ww-contact", "mv-contact")])))),
+    ("README.md", "ODE takes {:.2f} to {:.2f} of its time for contacts", lambda root: (
+        span([ode_to_fcl(root, scenario) for scenario in ("ww-contact", "mv-contact")]))),
+    ("docs/peers.md", "ODE is the best of the others, in {:.2f} (`mv`) to {:.2f} (`ww`) of FCL's time. It takes {} times as long as "
+     "`certified` on `ww` and {} times on `mv` ({} and {} by the mean), and {} and {} times as long as `aabb-tree`", lambda root: (
+        *(ode_to_fcl(root, scenario) for scenario in ("mv-contact", "ww-contact")),
+        *(digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("ww-contact", "mv-contact")),
+        *(digits(times(root, scenario) / times(root, scenario, wanted=is_tree)) for scenario in ("ww-contact", "mv-contact")))),
+    ("docs/peers.md", "takes {} times the median of `certified` on `tt`, {} times on the path of `ww` and {} times on the path of `mv`, and "
+     "{}, {} and {} times its mean", lambda root: (
+        digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("tt", "rigid-ww", "rigid-mv"))),
+    ("docs/peers.md", "FCL is the best of Debian's engines. It takes {} times as long as `certified` on `ww`, {} times on `mv` and {} times "
+     "on `tt`", lambda root: (digits(times(root, scenario)) for scenario in ("ww", "mv", "tt-distance"))),
+    ("docs/impact.md", "Of {:,} approaches of all ten scenes in steps of 1, 3, 10 and 30 frames {} pass with continuous steps, {} surfaces "
+     "intersect at any time looked at, and {} flights are unproven", lambda root: (
+        sums(root, "continuous", "approaches", "passes_through", "intersecting", "floor_unproven"))),
+    ("docs/impact.md", "Sampled at the ends of steps of 30 frames, {1} of {0:,} pass and {2:,} intersect", lambda root: (
+        sums(root, "sampled", "approaches", "passes_through", "intersecting", least=30))),
+    ("docs/impact.md", "finding every impact frame by frame takes {:.1f} times as long as a sample each frame, and in steps of ten "
+     "frames {:.1f} times", lambda root: [continuous_to_sampled(root, "ww", step) for step in (1, 10)]),
     ("docs/findings.md", "more than {:.0f}00 times as fast as FCL's trees, and {:.1f} % of their distances are exact",
      lambda root: (
         reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,

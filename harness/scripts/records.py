@@ -47,3 +47,12 @@ def has_changed(root, study):
 def csv_rows(root, source):
     with open(file_of(root, source), newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def by_method(rows, name="method"):
+    """Rows by scenario and method, or by scenario and label."""
+    return {(row["scenario"], row[name]): row for row in rows}
+
+
+def verdicts_right(row):
+    return float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0

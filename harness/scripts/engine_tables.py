@@ -1,0 +1,101 @@
+"""Tables of the engines of others beside ours, from a run of `make engines` in which all are asked about the same
+frames."""
+import functools
+
+from number_text import digits
+from records import csv_rows, verdicts_right
+
+ENGINES = "engines/summary.csv"
+PEERS = "engines/summary.csv#peers"
+OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
+
+QUESTIONS = {"ww": "ww, distance", "mv": "mv, distance", "tt-distance": "tt, distance", "ww-contact": "ww, contact",
+             "mv-contact": "mv, contact", "tt": "tt, contact", "rigid-ww": "path of ww, rigid, contact",
+             "rigid-mv": "path of mv, rigid, contact"}
+STATISTICS = ("median", "mean", "p95", "max")
+
+
+@functools.cache
+def finished(root, scenario):
+    return [row for row in csv_rows(root, ENGINES) if row["scenario"] == scenario and row["status"] == "ok"]
+
+
+def time_of(row, statistic):
+    """Microseconds."""
+    return float(row["total_ns_" + statistic]) / 1e3
+
+
+def fastest(rows, statistic):
+    return min(rows, key=lambda row: time_of(row, statistic))
+
+
+def fastest_right(root, scenario, statistic, wanted):
+    """Of the methods that are wanted, the fastest row without a wrong verdict."""
+    return fastest([row for row in finished(root, scenario) if wanted(row["method"]) and verdicts_right(row)], statistic)
+
+
+def is_other(method):
+    return method not in OWN
+
+
+def times(root, scenario, statistic="median", wanted=is_other):
+    """The time of the fastest of the methods that are wanted, over that of certified."""
+    ours = fastest_right(root, scenario, statistic, lambda method: method == "certified")
+    return time_of(fastest_right(root, scenario, statistic, wanted), statistic) / time_of(ours, statistic)
+
+
+def is_fcl(method):
+    return method.startswith("fcl-")
+
+
+def is_tree(method):
+    return method == "aabb-tree"
+
+
+def ode_to_fcl(root, scenario):
+    return times(root, scenario, wanted=lambda method: method == "ode") / times(root, scenario, wanted=is_fcl)
+
+
+def engines_table(root):
+    yield ("| scene, question | `certified`: median, mean in µs | fastest by the median | times | fastest by the mean | times | "
+           "FCL, median | `aabb-tree`, median |")
+    yield "| --- | ---: | --- | ---: | --- | ---: | ---: | ---: |"
+    for scenario, name in QUESTIONS.items():
+        ours = [digits(time_of(fastest_right(root, scenario, key, lambda method: method == "certified"), key))
+                for key in ("median", "mean")]
+        cells = [name, ", ".join(ours)]
+        for key in ("median", "mean"):
+            cells += [f"`{fastest_right(root, scenario, key, is_other)['label']}`", digits(times(root, scenario, key))]
+        cells += [digits(times(root, scenario, "median", wanted)) for wanted in (is_fcl, is_tree)]
+        yield f"| {' | '.join(cells)} |"
+
+
+def shown_of(rows):
+    """Of each method the row with its defaults, and those that are best by the median and by the mean."""
+    by_method = {}
+    for row in rows:
+        by_method.setdefault(row["method"], []).append(row)
+    shown = [row for row in rows if row["label"] == row["method"]
+             or any(row is fastest(by_method[row["method"]], key) for key in ("median", "mean"))]
+    return sorted(shown, key=lambda row: time_of(row, "median"))
+
+
+def peers_of(root, scenario):
+    rows = finished(root, scenario)
+    best = {key: fastest_right(root, scenario, key, is_other) for key in STATISTICS}
+    yield f"### {QUESTIONS[scenario]} (`{scenario}`)"
+    yield ""
+    yield f"{int(rows[0]['frames']):,} frames, {rows[0]['replicates']} processes a row."
+    yield ""
+    yield "| | median | mean | p95 | worst | wrong |"
+    yield "| --- | ---: | ---: | ---: | ---: | ---: |"
+    for row in shown_of(rows):
+        cells = [digits(time_of(row, key)) + " *" * (row is best[key]) for key in STATISTICS]
+        wrong = float(row["missed"] or 0) + float(row["false_contacts"] or 0)
+        yield f"| `{row['label']}` | {' | '.join(cells)} | {wrong:.0f} |"
+
+
+def peers_tables(root):
+    """A table a scenario, in microseconds a frame. A star marks, in each column, the fastest engine of others."""
+    for scenario in QUESTIONS:
+        yield from ("", *peers_of(root, scenario))
