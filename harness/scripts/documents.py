@@ -17,10 +17,10 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # no folder beside the sources
-from character_tables import CHARACTERS, PARTS, characters, characters_table, parts_table
+from character_tables import CHARACTERS, PARTS, characters, characters_table, exact_to_parts, parts_table
 from engine_tables import ENGINES, PEERS, engines_table, is_tree, ode_to_fcl, peers_tables, times
 from impact_tables import (FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
-                           long_steps_table, short_steps_table, sums)
+                           long_questions, long_steps_table, short_steps_table, sums)
 from number_text import digits, exact_text, interval, percent, size
 from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, verdicts_right
 from reliability_tables import GATHERED, checks, soaked
@@ -38,6 +38,8 @@ ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
 VERDICTS = "verdicts/verdicts.txt"
 READERS = "readers/readers.md"
+ANIMATED = "readers/characters.txt"
+PYTHON = "python-speed/python-speed.txt"
 RACES = "reference/races.csv"
 END = "<!-- to here -->"
 CHANGED = "its sources have changed since"
@@ -382,16 +384,34 @@ def readers_table(root):
         yield "|".join(line.split("|")[:-3]) + "|"
 
 
+def numbers_of(text):
+    return [float(number) if "." in number else int(number) for number in re.findall(r"\d+(?:\.\d+)?", text)]
+
+
 def readers_total(root):
     """How many files there are, how many mote reads as meshes, and how many it refuses."""
-    return map(int, re.findall(r"\d+", file_of(root, READERS).read_text().split("\n\n")[1])[:3])
+    return numbers_of(file_of(root, READERS).read_text().split("\n\n")[1])[:3]
 
 
-TABLES = {SUMMARY: reference_table, DYNAMICS: dynamics_table, CLAIMS: claims_table, BODIES: bodies_table,
-          CROWDS: crowd_table, ENGINES: engines_table, PEERS: peers_tables, BENCH: pairs_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
-          CHARACTERS: characters_table, PARTS: parts_table, SPEED: impact_table, FCL_SPEED: fcl_table,
-          LONG_STEPS: long_steps_table, SHORT_STEPS: short_steps_table, READERS: readers_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure,
-          VERDICTS: verdicts_table,
+def animated_files(root):
+    """How many files have clips, how many are read, and how many of these have no edge of more than two faces."""
+    return numbers_of(file_of(root, ANIMATED).read_text())[:3]
+
+
+def python_table(root):
+    yield "| scenario | loop in C | batch | its ratio to C | single calls | more than C |"
+    yield "| --- | ---: | ---: | ---: | ---: | ---: |"
+    for line in file_of(root, PYTHON).read_text().splitlines():
+        scenario, _, text = line.partition(":")
+        in_c, call, more, batch, ratio, _ = numbers_of(text)
+        yield f"| {scenario} | {in_c} | {batch} | {ratio} | {call} | {more} |"
+
+
+TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
+          PEERS: peers_tables, VERDICTS: verdicts_table, DYNAMICS: dynamics_table, LONG_STEPS: long_steps_table,
+          SHORT_STEPS: short_steps_table, SPEED: impact_table, FCL_SPEED: fcl_table, CHARACTERS: characters_table,
+          PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
+          ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
 
 
@@ -530,6 +550,9 @@ SENTENCES = [
         sums(root, "sampled", "approaches", "passes_through", "intersecting", least=30))),
     ("docs/impact.md", "finding every impact frame by frame takes {:.1f} times as long as a sample each frame, and in steps of ten "
      "frames {:.1f} times", lambda root: [continuous_to_sampled(root, "ww", step) for step in (1, 10)]),
+    ("docs/impact.md", "At steps of 100 frames, 30 samples take {:.2f} to {:.2f} of the time of `certified` and miss {:.0f} of {:.0f} impacts",
+     lambda root: long_questions(root, "impact-sampled:samples=30")),
+    ("docs/impact.md", "Three samples miss {2:.0f} of them", lambda root: long_questions(root, "impact-sampled:samples=3")),
     ("docs/findings.md", "more than {:.0f}00 times as fast as FCL's trees, and {:.1f} % of their distances are exact",
      lambda root: (
         reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,
@@ -564,6 +587,12 @@ SENTENCES = [
      "{:.1f} times the time", launches),
     ("docs/characters.md", "Side by side the bison take {} us instead of {}, and their 95th percentile is {} us", lambda root: (
         characters(root)["bison-15k"][0], characters(root)["bison-near-15k"][0], characters(root)["bison-15k"][1])),
+    ("docs/characters.md", "where bones alone move a body, an exact answer costs {:.1f} to {:.1f} times what rigid parts do",
+     exact_to_parts),
+    ("docs/characters.md", "Of {} animated files of Debian's `assimp-testmodels` {} are read, {} of them without an edge of more than two faces",
+     animated_files),
+    ("docs/benchmarking.md", "`make readers` reads each of the {} files", lambda root: readers_total(root)[:1]),
+    ("docs/benchmarking.md", "mote reads {} as meshes and refuses {}", lambda root: readers_total(root)[1:]),
     ("docs/findings.md", "passes through the other in {} % of 1,000 approaches; with 3 particles it is {} %",
      lambda root: (pass_through(root, "ww", 5), pass_through(root, "ww", 3))),
     ("docs/findings.md", "for {:.1f} (`mv`) to {:.1f} times (`ww`) the time of the particles", lambda root: (

@@ -53,6 +53,15 @@ def impact_table(root):
         yield f"| {' | '.join(cells)} |"
 
 
+def long_questions(root, label):
+    """Of a method in steps of 100 frames: the least and the largest time over that of certified, missed impacts, and all."""
+    rows = by_step(root, SPEED)
+    found = [(rows[scenario, step, label], ours) for (scenario, step, name), ours in rows.items() if (step, name) == (100, "certified")]
+    shares = [median(row) / median(ours) for row, ours in found]
+    missed, impacts = (sum(float(row[key]) for row, _ in found) for key in ("missed", "contacts"))
+    return (min(shares), max(shares), missed, impacts)
+
+
 def fcl_table(root):
     yield "| scenario, step | questions, impacts | `fcl-continuous`: median in ms | `certified`: median in µs |"
     yield "| --- | ---: | ---: | ---: |"
