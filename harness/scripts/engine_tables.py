@@ -20,6 +20,11 @@ def finished(root, scenario):
     return [row for row in csv_rows(root, ENGINES) if row["scenario"] == scenario and row["status"] == "ok"]
 
 
+def failed(root, scenario):
+    return [row for row in csv_rows(root, ENGINES)
+            if row["scenario"] == scenario and row["status"] not in ("ok", "unsupported")]
+
+
 def time_of(row, statistic):
     """Microseconds."""
     return float(row["total_ns_" + statistic]) / 1e3
@@ -93,9 +98,13 @@ def peers_of(root, scenario):
         cells = [digits(time_of(row, key)) + " *" * (row is best[key]) for key in STATISTICS]
         wrong = float(row["missed"] or 0) + float(row["false_contacts"] or 0)
         yield f"| `{row['label']}` | {' | '.join(cells)} | {wrong:.0f} |"
+    for row in failed(root, scenario):
+        yield f"| `{row['label']}` | {row['status']} | | | | |"
 
 
 def peers_tables(root):
     """A table a scenario, in microseconds a frame. A star marks, in each column, the fastest engine of others."""
-    for scenario in QUESTIONS:
-        yield from ("", *peers_of(root, scenario))
+    for number, scenario in enumerate(QUESTIONS):
+        if number > 0:
+            yield ""
+        yield from peers_of(root, scenario)
