@@ -1,6 +1,6 @@
 /* Where branches are counted (MoteCoverage.cmake): a process that ends by _exit keeps its
-   counts as one that ends by exit does. The linker puts the function below in the place of the
-   one that it is named after (--wrap). */
+   counts as one that ends by exit does. The linker puts __wrap__exit in the place of _exit
+   (--wrap). */
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -8,8 +8,7 @@ void __gcov_dump(void);
 _Noreturn void __real__exit(int status);
 _Noreturn void __wrap__exit(int status);
 
-/* A test may limit the size of files; counts that end in the middle would spoil those of all
- * others. */
+/* A test may limit the size of files; counts cut short would spoil those of all others. */
 __attribute__((destructor)) static void lift_limit(void)
 {
     struct rlimit limit;

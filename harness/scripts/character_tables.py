@@ -2,7 +2,7 @@
 import functools
 import re
 
-from number_text import digits
+from number_text import digits, span
 from records import by_method, csv_rows, file_of
 
 CHARACTERS = "character-speed/characters.md"
@@ -31,8 +31,7 @@ def exact_to_parts(root):
     """Where no body has morph targets: the least and the largest time of the exact query, over that of rigid parts by
     the same search."""
     found = [parts_rows(root)[scenario] for scenario in ("bison-15k", "jumper-20k", "hands")]
-    shares = [float(exact["total_ns_median"]) / float(parts["total_ns_median"]) for exact, parts, _ in found]
-    return (min(shares), max(shares))
+    return span([float(exact["total_ns_median"]) / float(parts["total_ns_median"]) for exact, parts, _ in found])
 
 
 def parts_table(root):

@@ -4,11 +4,10 @@
 A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
 record of a study of `make record`, or, while there is none, FILE in results/reference; what follows a "#" is one of
-several tables of the same file; checks, fuzz, coverage,
-mutation and soak are those of reliability_tables.py. Above the table stands when it was measured, and whether the
-study's sources have changed since. A number within a sentence is typed by hand; the sentence stands in SENTENCES with
-its values, and has to be in the document, rounded as there. --check writes nothing, and says what disagrees. Status:
-0 all agree, 1 something disagrees, 4 a file is missing or cannot be read."""
+several tables of the same file; checks, fuzz, coverage, mutation and soak are those of reliability_tables.py. Above the
+table stands when it was measured, and whether the study's sources have changed since. A number within a sentence is
+typed by hand; the sentence stands in SENTENCES with its values, and has to be in the document, rounded as there.
+--check writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot be read."""
 import functools
 import json
 import os
@@ -19,14 +18,13 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # no folder beside the sources
 from character_tables import CHARACTERS, PARTS, characters, characters_table, exact_to_parts, parts_table
 from engine_tables import ENGINES, PEERS, engines_table, is_tree, ode_to_fcl, peers_tables, times
-from impact_tables import (FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
+from impact_tables import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
                            long_questions, long_steps_table, short_steps_table, sums)
-from number_text import digits, exact_text, interval, percent, size
-from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, verdicts_right
+from number_text import digits, exact_text, interval, percent, size, span
+from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, wrong_verdicts
 from reliability_tables import GATHERED, checks, soaked
 
 SUMMARY = "reference/summary.json"
-DYNAMICS = "dynamics/dynamics.csv"
 CLAIMS = "claims/claims.json"
 BODIES = "bodies/bodies.csv"
 CROWDS = "bodies/characters-summary.csv"
@@ -51,11 +49,12 @@ def link(text, record, document):
 
 def heading(root, source, document, old):
     """When a table was measured. old: the block as it stands, which is believed where nothing else tells."""
+    source = source.partition("#")[0]
     if source.startswith("reference/"):
         return []
     if source in GATHERED:
         return heading_of_gathered(root, GATHERED[source].records(root), document, old)
-    record = record_of(root, source.partition("#")[0])
+    record = record_of(root, source)
     if not record:
         when = max(row["measured"] for row in csv_rows(root, source))[:10]
         return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
@@ -440,10 +439,6 @@ def worst_reports(root, others=False):
     return (max(int(row["delay_max"]) for row in rows), max(float(row["max_penetration_unreported"]) for row in rows))
 
 
-def span(values):
-    return (min(values), max(values))
-
-
 def query_times(root, *methods):
     """The least and the largest time of a frame of the paper's scenes, in microseconds."""
     return span([float(row["query_ns"]) / 1e3 for row in loops(root, methods)])
@@ -504,7 +499,7 @@ def tracked_on_letters(root):
 def wrong_rows(root):
     """Of the rows of the full bench by exact methods, ours and others': how many, and how many have a wrong answer."""
     rows = [row for row in csv_rows(root, BENCH) if row["status"] == "ok" and not row["method"].startswith("particle")]
-    wrong = [row for row in rows if float(row["exact_rate"] or 1) < 1 or not verdicts_right(row)]
+    wrong = [row for row in rows if float(row["exact_rate"] or 1) < 1 or wrong_verdicts(row)]
     return (len(rows), len(wrong))
 
 

@@ -3,10 +3,10 @@ frames."""
 import functools
 
 from number_text import digits
-from records import csv_rows, verdicts_right
+from records import csv_rows, wrong_verdicts
 
 ENGINES = "engines/summary.csv"
-PEERS = "engines/summary.csv#peers"
+PEERS = ENGINES + "#peers"
 OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
 
 QUESTIONS = {"ww": "ww, distance", "mv": "mv, distance", "tt-distance": "tt, distance", "ww-contact": "ww, contact",
@@ -36,7 +36,15 @@ def fastest(rows, statistic):
 
 def fastest_right(root, scenario, statistic, wanted):
     """Of the methods that are wanted, the fastest row without a wrong verdict."""
-    return fastest([row for row in finished(root, scenario) if wanted(row["method"]) and verdicts_right(row)], statistic)
+    return fastest([row for row in finished(root, scenario) if wanted(row["method"]) and not wrong_verdicts(row)], statistic)
+
+
+def time_of_fastest(root, scenario, statistic, wanted):
+    return time_of(fastest_right(root, scenario, statistic, wanted), statistic)
+
+
+def is_certified(method):
+    return method == "certified"
 
 
 def is_other(method):
@@ -45,8 +53,7 @@ def is_other(method):
 
 def times(root, scenario, statistic="median", wanted=is_other):
     """The time of the fastest of the methods that are wanted, over that of certified."""
-    ours = fastest_right(root, scenario, statistic, lambda method: method == "certified")
-    return time_of(fastest_right(root, scenario, statistic, wanted), statistic) / time_of(ours, statistic)
+    return time_of_fastest(root, scenario, statistic, wanted) / time_of_fastest(root, scenario, statistic, is_certified)
 
 
 def is_fcl(method):
@@ -66,8 +73,7 @@ def engines_table(root):
            "FCL, median | `aabb-tree`, median |")
     yield "| --- | ---: | --- | ---: | --- | ---: | ---: | ---: |"
     for scenario, name in QUESTIONS.items():
-        ours = [digits(time_of(fastest_right(root, scenario, key, lambda method: method == "certified"), key))
-                for key in ("median", "mean")]
+        ours = [digits(time_of_fastest(root, scenario, key, is_certified)) for key in ("median", "mean")]
         cells = [name, ", ".join(ours)]
         for key in ("median", "mean"):
             cells += [f"`{fastest_right(root, scenario, key, is_other)['label']}`", digits(times(root, scenario, key))]
@@ -77,11 +83,11 @@ def engines_table(root):
 
 def shown_of(rows):
     """Of each method the row with its defaults, and those that are best by the median and by the mean."""
-    by_method = {}
+    of_method = {}
     for row in rows:
-        by_method.setdefault(row["method"], []).append(row)
+        of_method.setdefault(row["method"], []).append(row)
     shown = [row for row in rows if row["label"] == row["method"]
-             or any(row is fastest(by_method[row["method"]], key) for key in ("median", "mean"))]
+             or any(row is fastest(of_method[row["method"]], key) for key in ("median", "mean"))]
     return sorted(shown, key=lambda row: time_of(row, "median"))
 
 
@@ -96,8 +102,7 @@ def peers_of(root, scenario):
     yield "| --- | ---: | ---: | ---: | ---: | ---: |"
     for row in shown_of(rows):
         cells = [digits(time_of(row, key)) + " *" * (row is best[key]) for key in STATISTICS]
-        wrong = float(row["missed"] or 0) + float(row["false_contacts"] or 0)
-        yield f"| `{row['label']}` | {' | '.join(cells)} | {wrong:.0f} |"
+        yield f"| `{row['label']}` | {' | '.join(cells)} | {wrong_verdicts(row):.0f} |"
     for row in failed(root, scenario):
         yield f"| `{row['label']}` | {row['status']} | | | | |"
 

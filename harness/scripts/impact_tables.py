@@ -2,16 +2,18 @@
 found."""
 import functools
 
-from number_text import digits
+from number_text import digits, span
 from records import csv_rows
 
 SPEED = "impact-speed/summary.csv"
 FCL_SPEED = "impact-speed/fcl-summary.csv"
-LONG_STEPS = "dynamics/dynamics.csv#long-steps"
-SHORT_STEPS = "dynamics/dynamics.csv#short-steps"
+DYNAMICS = "dynamics/dynamics.csv"
+LONG_STEPS = DYNAMICS + "#long-steps"
+SHORT_STEPS = DYNAMICS + "#short-steps"
 SAMPLED = ("impact-sampled:samples=3", "impact-sampled", "impact-sampled:samples=30")
 
 
+@functools.cache
 def by_step(root, source):
     """The finished rows by scenario, frames a step and label."""
     return {(row["scenario"], int(row["step"]), row["label"]): row for row in csv_rows(root, source) if row["status"] == "ok"}
@@ -59,7 +61,7 @@ def long_questions(root, label):
     found = [(rows[scenario, step, label], ours) for (scenario, step, name), ours in rows.items() if (step, name) == (100, "certified")]
     shares = [median(row) / median(ours) for row, ours in found]
     missed, impacts = (sum(float(row[key]) for row, _ in found) for key in ("missed", "contacts"))
-    return (min(shares), max(shares), missed, impacts)
+    return (*span(shares), missed, impacts)
 
 
 def fcl_table(root):
@@ -77,7 +79,7 @@ def fcl_table(root):
 def steps(root, within):
     """Rows of the closed loop in steps of some frames, by scenario and frames a step. within: "continuous", where impacts are
     found within a step, or "sampled", where contacts are looked for at its end."""
-    return {(row["scenario"], int(row["step"])): row for row in csv_rows(root, "dynamics/dynamics.csv")
+    return {(row["scenario"], int(row["step"])): row for row in csv_rows(root, DYNAMICS)
             if row["method"] == "certified" and row["within"] == within}
 
 
@@ -89,24 +91,24 @@ def time_of_frame(row):
     return digits(float(row["query_ns"]) / 1e3 / int(row["step"]))
 
 
-def steps_table(root, keys, name):
-    yield (f"| {name} | continuous: approaches, pass, intersect | pushes | µs a frame | sampled: approaches, pass, intersect | "
+def steps_table(root, head, shown):
+    """shown: by what stands in the first column, the scene and the frames a step."""
+    yield (f"| {head} | continuous: approaches, pass, intersect | pushes | µs a frame | sampled: approaches, pass, intersect | "
            "µs a frame |")
     yield "| --- | ---: | ---: | ---: | ---: | ---: |"
-    for scenario, step in keys:
-        found, sampled = (steps(root, within)[scenario, step] for within in ("continuous", "sampled"))
-        shown = scenario if name == "scene" else f"{scenario} {step}"
-        yield (f"| {shown} | {counts(found)} | {found['floor_pushes']} | {time_of_frame(found)} | {counts(sampled)} | "
+    for name, key in shown.items():
+        found, sampled = (steps(root, within)[key] for within in ("continuous", "sampled"))
+        yield (f"| {name} | {counts(found)} | {found['floor_pushes']} | {time_of_frame(found)} | {counts(sampled)} | "
                f"{time_of_frame(sampled)} |")
 
 
 def long_steps_table(root):
-    return steps_table(root, [key for key in steps(root, "continuous") if key[1] == 30], "scene")
+    return steps_table(root, "scene", {scene: (scene, step) for scene, step in steps(root, "continuous") if step == 30})
 
 
 def short_steps_table(root):
-    keys = [(scene, step) for scene in ("tt", "mv", "ww") for step in (1, 3, 10)]
-    return steps_table(root, keys, "scene, frames a step")
+    shown = {f"{scene} {step}": (scene, step) for scene in ("tt", "mv", "ww") for step in (1, 3, 10)}
+    return steps_table(root, "scene, frames a step", shown)
 
 
 def sums(root, within, *keys, least=1):

@@ -28,3 +28,7 @@ def exact_text(share):
 def digits(value):
     """Three digits, and thousands set apart: 0.18, 9.57, 28.1, 1,280."""
     return f"{value:,.0f}" if value >= 100 else f"{value:#.3g}".rstrip(".")
+
+
+def span(values):
+    return (min(values), max(values))

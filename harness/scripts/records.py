@@ -54,5 +54,6 @@ def by_method(rows, name="method"):
     return {(row["scenario"], row[name]): row for row in rows}
 
 
-def verdicts_right(row):
-    return float(row["missed"] or 0) == float(row["false_contacts"] or 0) == 0
+def wrong_verdicts(row):
+    """How many contacts were missed or false."""
+    return float(row["missed"] or 0) + float(row["false_contacts"] or 0)
