@@ -23,6 +23,7 @@ from impact_tables import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, 
 from number_text import digits, exact_text, interval, percent, size, span
 from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, wrong_verdicts
 from reliability_tables import GATHERED, checks, soaked
+from tune_tables import TUNE, count_of_settings, fastest_not_asked, oriented_to_boxes, tune_table
 
 SUMMARY = "reference/summary.json"
 CLAIMS = "claims/claims.json"
@@ -409,8 +410,8 @@ def python_table(root):
 TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
           PEERS: peers_tables, VERDICTS: verdicts_table, DYNAMICS: dynamics_table, LONG_STEPS: long_steps_table,
           SHORT_STEPS: short_steps_table, SPEED: impact_table, FCL_SPEED: fcl_table, CHARACTERS: characters_table,
-          PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table, AUTO: auto_table,
-          ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
+          TUNE: tune_table, PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table,
+          AUTO: auto_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
 
 
@@ -533,6 +534,10 @@ SENTENCES = [
         *(ode_to_fcl(root, scenario) for scenario in ("mv-contact", "ww-contact")),
         *(digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("ww-contact", "mv-contact")),
         *(digits(times(root, scenario) / times(root, scenario, wanted=is_tree)) for scenario in ("ww-contact", "mv-contact")))),
+    ("docs/peers.md", "`make tune PROFILE=full` measures {} settings of these engines on {} scenes", count_of_settings),
+    ("docs/peers.md", "`make engines` has the fastest of each of its scenes but {}", fastest_not_asked),
+    ("docs/peers.md", "FCL's oriented volumes take at least {:.0f} to {:.0f} times as long as its axis-aligned boxes", lambda root: (
+        span(list(oriented_to_boxes(root, "ww", "mv", "bison-15k", "jumper-20k"))))),
     ("docs/peers.md", "takes {} times the median of `certified` on `tt`, {} times on the path of `ww` and {} times on the path of `mv`, and "
      "{}, {} and {} times its mean", lambda root: (
         digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("tt", "rigid-ww", "rigid-mv"))),

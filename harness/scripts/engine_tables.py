@@ -7,7 +7,7 @@ from records import csv_rows, wrong_verdicts
 
 ENGINES = "engines/summary.csv"
 PEERS = ENGINES + "#peers"
-OWN = ("certified", "aabb-tree", "stream", "auto", "particle", "particle-paper")
+SINGLE = ("ode", "bullet-gimpact", "embree-contact")
 
 QUESTIONS = {"ww": "ww, distance", "mv": "mv, distance", "tt-distance": "tt, distance", "ww-contact": "ww, contact",
              "mv-contact": "mv, contact", "tt": "tt, contact", "rigid-ww": "path of ww, rigid, contact",
@@ -47,11 +47,12 @@ def is_certified(method):
     return method == "certified"
 
 
-def is_other(method):
-    return method not in OWN
+def is_engine(method):
+    """Whether it is an engine of others."""
+    return method.startswith(("fcl-", "coal-")) or method in SINGLE
 
 
-def times(root, scenario, statistic="median", wanted=is_other):
+def times(root, scenario, statistic="median", wanted=is_engine):
     """The time of the fastest of the methods that are wanted, over that of certified."""
     return time_of_fastest(root, scenario, statistic, wanted) / time_of_fastest(root, scenario, statistic, is_certified)
 
@@ -76,7 +77,7 @@ def engines_table(root):
         ours = [digits(time_of_fastest(root, scenario, key, is_certified)) for key in ("median", "mean")]
         cells = [name, ", ".join(ours)]
         for key in ("median", "mean"):
-            cells += [f"`{fastest_right(root, scenario, key, is_other)['label']}`", digits(times(root, scenario, key))]
+            cells += [f"`{fastest_right(root, scenario, key, is_engine)['label']}`", digits(times(root, scenario, key))]
         cells += [digits(times(root, scenario, "median", wanted)) for wanted in (is_fcl, is_tree)]
         yield f"| {' | '.join(cells)} |"
 
@@ -93,7 +94,7 @@ def shown_of(rows):
 
 def peers_of(root, scenario):
     rows = finished(root, scenario)
-    best = {key: fastest_right(root, scenario, key, is_other) for key in STATISTICS}
+    best = {key: fastest_right(root, scenario, key, is_engine) for key in STATISTICS}
     yield f"### {QUESTIONS[scenario]} (`{scenario}`)"
     yield ""
     yield f"{int(rows[0]['frames']):,} frames, {rows[0]['replicates']} processes a row."
