@@ -48,8 +48,9 @@ MODULES = {
     ),
     "stream": (
         "core/stream/*.c",
-        ["few answers", "test_stream", "test_stream_limits", "test_stream_scene",
-         "test_method_auto"],
+        ["few answers", "test_stream_tree", "test_stream_boxes", "test_stream_leaf", "test_stream",
+         "test_stream_limits", "test_stream_scene", "test_stream_batch", "test_method_auto",
+         "test_allocations_impact"],
     ),
     "skin": (
         "core/skin/*.c",
@@ -58,7 +59,7 @@ MODULES = {
     ),
 }
 # They count what is allocated, by functions in place of libc's, and so cannot look for leaks.
-COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_scene"}
+COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_allocations_impact", "test_scene"}
 HEAP_COUNT = "harness/base/heap_count.c"
 ARGUMENTS = {"few answers": ["--few", "--check", "tests/answers.txt"]}
 

@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const methods[] = {"certified", "stream", "particle:n=8",
+static const char *const methods[] = {"certified", "stream", "auto", "particle:n=8",
                                       "particle-paper:n=5"};
 /* Left out: these are built in minutes, and are ww again. */
 static const char *const large[] = {"ww-100k", "ww-1m", "ww-10m"};

@@ -1,62 +1,10 @@
 /* Streamed queries at the ends of numbers: of stamps, of floats, of distances and of what is
    known from the frame before. */
-#include "core/stream/stream_state.h"
-
 #include "tests/support/certificate_scene.h"
-#include "tests/support/stream_scene.h"
+#include "tests/support/own_stream.h"
 #include "tests/support/truth.h"
 
 #include <stdio.h>
-
-/* A query of which every part can be set. */
-typedef struct own_query {
-    mote_stream_tree *tree[2];
-    mote_stream_body body[2];
-    mote_stream_search search;
-    mote_stream_memory memory;
-} own_query;
-
-static void own_init(own_query *own, const scene *s)
-{
-    mote_stream_options options = mote_default_stream_options(s->length);
-    const mote_body *largest[2];
-    uint32_t room[2];
-    options.coherent = false;
-    own->memory = (mote_stream_memory){.has_last = false};
-    for (int b = 0; b < 2; ++b) {
-        assert_int_equal(mote_stream_tree_create(&s->body[b], &own->tree[b]), MOTE_OK);
-        assert_int_equal(mote_stream_body_init(&own->body[b], own->tree[b]), MOTE_OK);
-        largest[b] = &own->tree[b]->body;
-        room[b] = own->tree[b]->groups;
-    }
-    assert_int_equal(mote_stream_search_init(&own->search, &options, largest, room), MOTE_OK);
-}
-
-static void own_free(own_query *own)
-{
-    mote_stream_search_free(&own->search);
-    for (int b = 0; b < 2; ++b) {
-        mote_stream_body_free(&own->body[b]);
-        mote_stream_tree_destroy(own->tree[b]);
-    }
-}
-
-static mote_certificate_answer own_ask(own_query *own, const scene *s)
-{
-    mote_stream_search *search = &own->search;
-    mote_stream_body *const body[2] = {&own->body[0], &own->body[1]};
-    mote_certificate_answer answer;
-    for (int b = 0; b < 2; ++b)
-        body[b]->positions = mote_positions_of(s->world[b]);
-    const bool near = mote_stream_seed(search, body, &own->memory, -1);
-    mote_stream_choose(search);
-    for (int b = 0; b < 2; ++b)
-        assert_int_equal(mote_stream_pass(body[b], search->origin, search->scale, NULL, b),
-                         MOTE_OK);
-    assert_int_equal(mote_stream_prove(search, !near), MOTE_OK);
-    mote_stream_write(search, &own->memory, &answer);
-    return answer;
-}
 
 /* The numbers that tell what belongs to a query begin again after 2^32: nothing of an old one
    is then taken for what is new. */
@@ -173,8 +121,21 @@ TEST(query_positions_far_below_the_unit_are_exact)
     scene_free(&s);
 }
 
-/* The mean normal of a leaf's faces: that of the sheet, at any size; none where its products
-   leave the range of floats. */
+/* The plane 2 y + x = 4 z through the points of a leaf, its axes turned by `turn`. */
+static void put_in_plane(const mote_stream_tree *tree, double size, size_t turn,
+                         mote_stream_slot *slot)
+{
+    memset(slot, 0, sizeof *slot);
+    for (size_t i = 0; i < tree->leaf_start[1]; ++i) {
+        const mote_vec3 p = tree->mesh->positions[tree->leaf_vertices[i]];
+        slot->x[turn][i] = (float)(size * p.x);
+        slot->x[(turn + 1) % 3][i] = (float)(size * p.y);
+        slot->x[(turn + 2) % 3][i] = (float)(size * (0.25 * p.x + 0.5 * p.y));
+    }
+}
+
+/* The mean normal of a leaf's faces: that of the sheet, at any size, whichever of its numbers
+   is the largest; none where its products leave the range of floats. */
 TEST(mote_stream_normal_is_that_of_the_sheet_or_none)
 {
     static const double sizes[] = {1, 1e-15, 1e15, 1e-30, 1e30, 1e-23, 0};
@@ -185,26 +146,22 @@ TEST(mote_stream_normal_is_that_of_the_sheet_or_none)
     const mote_stream_tree *tree = own.tree[0];
     assert_int_equal(tree->leaves, 1);
     own.search.side[0].body = &own.body[0];
-    for (size_t k = 0; k < ROWS_OF(sizes); ++k) {
+    for (size_t k = 0; k < 3 * ROWS_OF(sizes); ++k) {
         static mote_stream_slot slot;
-        const double size = sizes[k];
-        memset(&slot, 0, sizeof slot);
-        for (size_t i = 0; i < tree->leaf_start[1]; ++i) { /* x + 2 y - 4 z = 0 */
-            const mote_vec3 p = tree->mesh->positions[tree->leaf_vertices[i]];
-            slot.x[0][i] = (float)(size * p.x);
-            slot.x[1][i] = (float)(size * p.y);
-            slot.x[2][i] = (float)(size * (0.25 * p.x + 0.5 * p.y));
-        }
+        const double size = sizes[k / 3];
+        put_in_plane(tree, size, k % 3, &slot);
         const float *n = mote_stream_normal(&own.search, 0, &slot);
-        const double sign = (double)n[2] > 0 ? 1 : -1;
+        const double x = (double)n[k % 3], y = (double)n[(k + 1) % 3],
+                     z = (double)n[(k + 2) % 3];
+        const double sign = z > 0 ? 1 : -1;
         const bool usable = size > 1e-20 && size < 1e20;
-        test_row("size %g", size);
-        assert_true(fabs((double)n[2] - (usable ? sign : 0)) < 1e-5);
-        assert_true(fabs((double)n[0] + (usable ? 0.25 * sign : 0)) < 1e-5);
-        assert_true(fabs((double)n[1] + (usable ? 0.5 * sign : 0)) < 1e-5);
+        test_row("size %g, turned %zu times", size, k % 3);
+        assert_true(fabs(z - (usable ? sign : 0)) < 1e-5);
+        assert_true(fabs(x + (usable ? 0.25 * sign : 0)) < 1e-5);
+        assert_true(fabs(y + (usable ? 0.5 * sign : 0)) < 1e-5);
         memset(slot.x, 0, sizeof slot.x); /* it is kept */
         assert_ptr_equal(mote_stream_normal(&own.search, 0, &slot), n);
-        assert_int_equal((double)n[2] > 0 || (double)n[2] < 0, usable);
+        assert_int_equal((double)n[(k + 2) % 3] > 0 || (double)n[(k + 2) % 3] < 0, usable);
     }
     own_free(&own);
     scene_free(&s);
@@ -316,6 +273,9 @@ TEST(query_unchanged_body_while_the_other_goes_far_away)
         frame.unchanged[1] = k > 0 && !(fabs(away[k] - away[k - 1]) > 0);
         const mote_certificate_answer a = stream_answer(stream, &frame, -1);
         const double truth = scene_truth(&s);
+        /* where the unit of the boxes changes, those of the body that rests are made again */
+        if (k == 1 || k == 3)
+            assert_true(a.counters.positions >= s.mesh[0]->vertex_count + count);
         s.length = length * fmax(1, away[k]);
         check_bracket(&s, &a, truth);
         assert_true(a.distance <= truth + 1e-12 * s.length);

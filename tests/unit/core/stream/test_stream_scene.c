@@ -3,8 +3,11 @@
 #include "core/stream/stream_scene.h"
 
 #include "harness/base/heap_count.h"
+#include "core/stream/stream_state.h"
 #include "tests/support/crowd.h"
 #include "tests/support/test.h"
+
+#include <stdio.h>
 
 typedef struct placed {
     crowd c;
@@ -171,6 +174,121 @@ TEST(bytes_are_those_of_the_heap)
     placed_free(&p);
 }
 
+static size_t bytes_of_scene(const placed *p, uint32_t shapes, uint32_t bodies,
+                             uint32_t threads)
+{
+    static const uint32_t first[CROWD_MAX] = {0};
+    mote_scene_options options = mote_default_scene_options();
+    mote_stream_scene *scene = NULL;
+    options.threads = threads;
+    assert_int_equal(
+        mote_stream_scene_create(p->c.shape, shapes, first, bodies, &options, &scene), MOTE_OK);
+    const size_t bytes = mote_stream_scene_bytes(scene);
+    mote_stream_scene_destroy(scene);
+    return bytes;
+}
+
+/* What a shape, a body and a thread add is what the tree, the boxes and the search of each
+   take. The search has room for the largest shape. */
+TEST(bytes_add_up)
+{
+    static placed p;
+    placed_init(&p, 3, 700, 3);
+    mote_stream_tree *tree[2];
+    for (int k = 0; k < 2; ++k)
+        assert_int_equal(mote_stream_tree_create(p.c.shape[k], &tree[k]), MOTE_OK);
+    mote_stream_body body;
+    assert_int_equal(mote_stream_body_init(&body, tree[0]), MOTE_OK);
+    const mote_stream_options options = mote_default_stream_options(1);
+    const mote_body *const largest[2] = {p.c.shape[0], p.c.shape[0]};
+    const uint32_t room[2] = {tree[0]->groups, tree[0]->groups};
+    static mote_stream_search search;
+    assert_int_equal(mote_stream_search_init(&search, &options, largest, room), MOTE_OK);
+
+    const size_t one = bytes_of_scene(&p, 1, 1, 1);
+    assert_int_equal(bytes_of_scene(&p, 2, 1, 1) - one, mote_stream_tree_bytes(tree[1]));
+    assert_int_equal(bytes_of_scene(&p, 1, 4, 1) - one,
+                     3 * (sizeof body + mote_stream_body_bytes(&body)));
+    assert_int_equal(bytes_of_scene(&p, 1, 1, 3) - one,
+                     2 * (sizeof search + mote_stream_search_bytes(&search)));
+    assert_true(one > mote_stream_tree_bytes(tree[0]) + sizeof body +
+                          mote_stream_body_bytes(&body) + sizeof search +
+                          mote_stream_search_bytes(&search));
+    mote_stream_search_free(&search);
+    mote_stream_body_free(&body);
+    mote_stream_tree_destroy(tree[0]);
+    mote_stream_tree_destroy(tree[1]);
+    placed_free(&p);
+}
+
+/* Two cubes' worth of corners: bodies that are exactly as far apart as the tolerance touch. */
+TEST(query_distance_that_is_the_tolerance_is_contact)
+{
+    static placed p;
+    placed_init(&p, 2, 400, 3);
+    const mote_mesh *mesh = p.c.shape[0]->mesh;
+    const uint32_t both[2] = {0, 0}, pairs[1][2] = {{0, 1}};
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    mote_vec3 *world[2];
+    for (int b = 0; b < 2; ++b) {
+        world[b] = malloc(mesh->vertex_count * sizeof *world[b]);
+        assert_non_null(world[b]);
+    }
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v) { /* multiples of 2^-10: no rounding */
+        const mote_vec3 x = mesh->positions[v];
+        world[0][v] = mote_vec3_make(round(x.x * 1024) / 1024, 0, 0);
+        low = fmin(low, world[0][v].x);
+        high = fmax(high, world[0][v].x);
+    }
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v)
+        world[1][v] = mote_vec3_make(world[0][v].x + (high - low) + 0.25, 0, 0);
+    const mote_positions at[2] = {mote_positions_of(world[0]), mote_positions_of(world[1])};
+    for (int ask = 0; ask < 2; ++ask) {
+        for (int k = -1; k <= 1; ++k) {
+            mote_scene_options options = mote_default_scene_options();
+            mote_stream_scene *scene = NULL;
+            mote_scene_box boxes[2];
+            size_t count;
+            options.ask = ask ? MOTE_ASK_CONTACT : MOTE_ASK_DISTANCE;
+            options.tolerance = 0.25 + k * 0x1p-40;
+            assert_int_equal(mote_stream_scene_create(p.c.shape, 1, both, 2, &options, &scene),
+                             MOTE_OK);
+            assert_int_equal(mote_stream_scene_bounds(scene, at, NULL, boxes), MOTE_OK);
+            assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_OK);
+            const mote_scene_pair *pair = mote_stream_scene_pairs(scene, &count);
+            assert_int_equal(pair->contact, k >= 0);
+            mote_stream_scene_destroy(scene);
+        }
+    }
+    free(world[0]);
+    free(world[1]);
+    placed_free(&p);
+}
+
+/* After bounds that failed, a body of which no box was made is named, whichever it is. */
+TEST(query_after_bounds_that_failed_is_refused)
+{
+    static placed p;
+    placed_init(&p, 6, 400, 3);
+    const mote_scene_options options = mote_default_scene_options();
+    mote_stream_scene *scene = scene_of(&p, &options);
+    mote_scene_box boxes[CROWD_MAX];
+    const uint32_t pairs[1][2] = {{0, 1}};
+    for (uint32_t i = 0; i < p.c.count; ++i) {
+        const mote_vec3 kept = p.world[i][3];
+        char expected[64];
+        p.world[i][3].x = NAN;
+        assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes),
+                         MOTE_EINVAL);
+        p.world[i][3] = kept;
+        (void)snprintf(expected, sizeof expected, "body %u has no boxes", i);
+        assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), expected));
+    }
+    mote_stream_scene_destroy(scene);
+    placed_free(&p);
+}
+
 TEST(bounds_and_query_bad_input_is_refused)
 {
     static placed p;
@@ -178,7 +296,7 @@ TEST(bounds_and_query_bad_input_is_refused)
     const mote_scene_options options = mote_default_scene_options();
     mote_stream_scene *scene = scene_of(&p, &options);
     mote_scene_box boxes[CROWD_MAX];
-    const uint32_t pairs[1][2] = {{1, 4}}, wrong[1][2] = {{4, 1}};
+    const uint32_t pairs[1][2] = {{1, 4}}, wrong[1][2] = {{5, 2}};
     assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "call mote_stream_scene_bounds"));
     const mote_positions good = p.positions[3];
