@@ -221,7 +221,8 @@ TEST(bytes_add_up)
     placed_free(&p);
 }
 
-/* Two cubes' worth of corners: bodies that are exactly as far apart as the tolerance touch. */
+/* Bodies that are pressed flat onto a line, and exactly as far apart as the tolerance: they
+ * touch. */
 TEST(query_distance_that_is_the_tolerance_is_contact)
 {
     static placed p;
