@@ -21,7 +21,7 @@ from engine_tables import ENGINES, PEERS, engines_table, is_tree, ode_to_fcl, pe
 from impact_tables import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
                            long_questions, long_steps_table, short_steps_table, sums)
 from number_text import digits, exact_text, interval, percent, size, span
-from records import by_method, csv_rows, file_of, has_changed, record_of, study_of, wrong_verdicts
+from records import by_method, csv_rows, file_of, has_changed, is_right, record_of, study_of
 from reliability_tables import GATHERED, checks, soaked
 from tune_tables import TUNE, count_of_settings, fastest_not_asked, oriented_to_boxes, tune_table
 
@@ -500,7 +500,7 @@ def tracked_on_letters(root):
 def wrong_rows(root):
     """Of the rows of the full bench by exact methods, ours and others': how many, and how many have a wrong answer."""
     rows = [row for row in csv_rows(root, BENCH) if row["status"] == "ok" and not row["method"].startswith("particle")]
-    wrong = [row for row in rows if float(row["exact_rate"] or 1) < 1 or wrong_verdicts(row)]
+    wrong = [row for row in rows if not is_right(row)]
     return (len(rows), len(wrong))
 
 
@@ -537,7 +537,7 @@ SENTENCES = [
     ("docs/peers.md", "`make tune PROFILE=full` measures {} settings of these engines on {} scenes", count_of_settings),
     ("docs/peers.md", "`make engines` has the fastest of each of its scenes but {}", fastest_not_asked),
     ("docs/peers.md", "FCL's oriented volumes take at least {:.0f} to {:.0f} times as long as its axis-aligned boxes", lambda root: (
-        span(list(oriented_to_boxes(root, "ww", "mv", "bison-15k", "jumper-20k"))))),
+        span([oriented_to_boxes(root, scenario) for scenario in ("ww", "mv", "bison-15k", "jumper-20k")]))),
     ("docs/peers.md", "takes {} times the median of `certified` on `tt`, {} times on the path of `ww` and {} times on the path of `mv`, and "
      "{}, {} and {} times its mean", lambda root: (
         digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("tt", "rigid-ww", "rigid-mv"))),

@@ -3,7 +3,7 @@ frames."""
 import functools
 
 from number_text import digits
-from records import csv_rows, wrong_verdicts
+from records import csv_rows, is_right, wrong_verdicts
 
 ENGINES = "engines/summary.csv"
 PEERS = ENGINES + "#peers"
@@ -34,9 +34,14 @@ def fastest(rows, statistic):
     return min(rows, key=lambda row: time_of(row, statistic))
 
 
+def fastest_right_of(rows, statistic):
+    """Of those without a wrong answer."""
+    return fastest([row for row in rows if is_right(row)], statistic)
+
+
 def fastest_right(root, scenario, statistic, wanted):
-    """Of the methods that are wanted, the fastest row without a wrong verdict."""
-    return fastest([row for row in finished(root, scenario) if wanted(row["method"]) and not wrong_verdicts(row)], statistic)
+    """Of the methods that are wanted, the fastest row without a wrong answer."""
+    return fastest_right_of([row for row in finished(root, scenario) if wanted(row["method"])], statistic)
 
 
 def time_of_fastest(root, scenario, statistic, wanted):
@@ -47,18 +52,18 @@ def is_certified(method):
     return method == "certified"
 
 
+def is_fcl(method):
+    return method.startswith("fcl-")
+
+
 def is_engine(method):
     """Whether it is an engine of others."""
-    return method.startswith(("fcl-", "coal-")) or method in SINGLE
+    return is_fcl(method) or method.startswith("coal-") or method in SINGLE
 
 
 def times(root, scenario, statistic="median", wanted=is_engine):
     """The time of the fastest of the methods that are wanted, over that of certified."""
     return time_of_fastest(root, scenario, statistic, wanted) / time_of_fastest(root, scenario, statistic, is_certified)
-
-
-def is_fcl(method):
-    return method.startswith("fcl-")
 
 
 def is_tree(method):

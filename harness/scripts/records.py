@@ -57,3 +57,8 @@ def by_method(rows, name="method"):
 def wrong_verdicts(row):
     """How many contacts were missed or false."""
     return float(row["missed"] or 0) + float(row["false_contacts"] or 0)
+
+
+def is_right(row):
+    """Whether no verdict was wrong, and each distance, where distances were asked for, is exact."""
+    return not wrong_verdicts(row) and not float(row["exact_rate"] or 1) < 1

@@ -2,17 +2,12 @@
 has it."""
 import functools
 
-from engine_tables import ENGINES, fastest, is_engine, time_of
+from engine_tables import ENGINES, fastest, fastest_right_of, is_engine, time_of
 from number_text import digits
-from records import csv_rows, wrong_verdicts
+from records import csv_rows, is_right
 
 TUNE = "tune/summary.csv"
 ORIENTED = ("fcl-obb", "fcl-rss", "fcl-obbrss", "fcl-kios")
-LARGEST_ERROR = 1e-9  # of L: MOTE_EXACT_ERROR
-
-
-def is_right(row):
-    return not wrong_verdicts(row) and not float(row["error_max"] or 0) > LARGEST_ERROR
 
 
 @functools.cache
@@ -25,44 +20,46 @@ def settings(root):
     return found
 
 
-def right_ones(rows):
-    return [row for row in rows if is_right(row)]
-
-
-def best(rows):
-    return fastest(right_ones(rows), "median")
+@functools.cache
+def best(root, scenario):
+    """Of each engine the fastest setting without a wrong answer, by method, the fastest engine first."""
+    found = {method: fastest_right_of(rows, "median") for method, rows in settings(root)[scenario].items()}
+    return dict(sorted(found.items(), key=lambda item: time_of(item[1], "median")))
 
 
 @functools.cache
 def asked(root):
-    """The scenarios and settings of `make engines`."""
-    return {(row["scenario"], row["label"]) for row in csv_rows(root, ENGINES)}
+    """The scenarios of `make engines`, and its settings on each."""
+    found = {}
+    for row in csv_rows(root, ENGINES):
+        found.setdefault(row["scenario"], set()).add(row["label"])
+    return found
 
 
 def whether_asked(root, row):
-    scenes = {scenario for scenario, _ in asked(root)}
-    if row["scenario"] not in scenes:
+    if row["scenario"] not in asked(root):
         return ""
-    return "yes" if (row["scenario"], row["label"]) in asked(root) else "no"
+    return "yes" if row["label"] in asked(root)[row["scenario"]] else "no"
 
 
-def of_engine(root, rows, is_fastest):
-    right = right_ones(rows)
-    row = fastest(right, "median")
-    time = time_of(row, "median")
-    slowest = max(time_of(other, "median") for other in right)
+def of_engine(root, row):
+    """The cells of an engine's best setting."""
+    rows = settings(root)[row["scenario"]][row["method"]]
+    right = [other for other in rows if is_right(other)]
+    time, slowest = time_of(row, "median"), max(time_of(other, "median") for other in right)
     wrong = f", {len(rows) - len(right)} wrong" if len(right) < len(rows) else ""
-    return (f"{len(rows)}{wrong}", f"`{row['label']}`", digits(time) + " *" * is_fastest, digits(slowest / time), whether_asked(root, row))
+    star = " *" * (row is fastest(best(root, row["scenario"]).values(), "median"))
+    return (f"`{row['scenario']}`", f"{len(rows)}{wrong}", f"`{row['label']}`", digits(time) + star, digits(slowest / time),
+            whether_asked(root, row))
 
 
 def tune_table(root):
     """A star marks the fastest of a scene."""
     yield "| scene | settings | best by the median | µs | slowest / best | in `make engines` |"
     yield "| --- | ---: | --- | ---: | ---: | --- |"
-    for scenario, methods in settings(root).items():
-        order = sorted(methods.values(), key=lambda rows: time_of(best(rows), "median"))
-        for rows in order:
-            yield f"| {' | '.join((f'`{scenario}`', *of_engine(root, rows, rows is order[0])))} |"
+    for scenario in settings(root):
+        for row in best(root, scenario).values():
+            yield f"| {' | '.join(of_engine(root, row))} |"
 
 
 def count_of_settings(root):
@@ -71,16 +68,11 @@ def count_of_settings(root):
 
 def fastest_not_asked(root):
     """The scenes of `make engines` on which it does not have the fastest setting, in one text."""
-    found = []
-    for scenario, methods in settings(root).items():
-        row = min((best(rows) for rows in methods.values()), key=lambda row: time_of(row, "median"))
-        if whether_asked(root, row) == "no":
-            found.append(f"`{scenario}`")
-    return [", ".join(found)]
+    first = [fastest(best(root, scenario).values(), "median") for scenario in settings(root)]
+    return [", ".join(f"`{row['scenario']}`" for row in first if whether_asked(root, row) == "no")]
 
 
-def oriented_to_boxes(root, *scenarios):
-    """On each scene, how many times as long FCL's best oriented volume takes as its best axis-aligned boxes."""
-    for scenario in scenarios:
-        times = {method: time_of(best(rows), "median") for method, rows in settings(root)[scenario].items()}
-        yield min(times[method] for method in ORIENTED if method in times) / times["fcl-aabb"]
+def oriented_to_boxes(root, scenario):
+    """How many times as long FCL's best oriented volume takes as its best axis-aligned boxes."""
+    times = {method: time_of(row, "median") for method, row in best(root, scenario).items()}
+    return min(times[method] for method in ORIENTED if method in times) / times["fcl-aabb"]
