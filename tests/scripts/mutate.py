@@ -20,6 +20,7 @@ part is not judged by its score.
 import argparse
 import concurrent.futures
 import fnmatch
+import functools
 import glob
 import hashlib
 import json
@@ -41,10 +42,10 @@ MODULES = {
     "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
                                               "test_statistics_order", "test_statistics_intervals"]),
     "certificate": (
-        "core/certificate/certificate*.c",
+        "core/certificate/*.c",
         ["test_certificate_bounds", "test_certificate_box", "test_certificate_split",
          "test_certificate", "few answers", "test_certificate_fitted", "test_allocations",
-         "test_certificate_limits", "test_certificate_apart", "test_scene"],
+         "test_certificate_limits", "test_certificate_apart", "test_scene_sift", "test_scene"],
     ),
     "stream": (
         "core/stream/*.c",
@@ -236,13 +237,20 @@ def mutants_of(path):
     return found
 
 
+@functools.cache
+def commands_of(build):
+    """Of each file that the build compiles: the words of the command, and its folder."""
+    return {os.path.realpath(entry["file"]): (shlex.split(entry["command"]), entry["directory"])
+            for entry in json.load(open(f"{build}/compile_commands.json"))}
+
+
+def files_of(build, pattern):
+    """The files that match and are compiled: plain.c is for a core without other libraries."""
+    return [p for p in sorted(glob.glob(pattern)) if os.path.realpath(p) in commands_of(build)]
+
+
 def compile_command(build, path):
-    for entry in json.load(open(f"{build}/compile_commands.json")):
-        if os.path.realpath(entry["file"]) == os.path.realpath(path):
-            words = shlex.split(entry["command"])
-            break
-    else:
-        sys.exit(f"mutate: {path} is not compiled in {build}")
+    words, directory = commands_of(build)[os.path.realpath(path)]
     kept, skip = [], False
     for word in words:
         if skip or word in ("ccache", "-c") or word.endswith("/ccache"):
@@ -255,7 +263,7 @@ def compile_command(build, path):
     # Arguments of another type do not make mutants; warnings are discarded.
     strict = [f"-Werror={name}" for name in ("incompatible-pointer-types", "int-conversion",
                                              "discarded-qualifiers", "return-type")]
-    return kept + ["-O1"] + strict, entry["directory"]
+    return kept + ["-O1"] + strict, directory
 
 
 def program_of(test):
@@ -386,7 +394,7 @@ def read_equivalents():
 
 def study(module, arguments):
     pattern, tests = MODULES[module]
-    paths = [p for p in sorted(glob.glob(pattern)) if fnmatch.fnmatch(p, arguments.files)]
+    paths = [p for p in files_of(arguments.build, pattern) if fnmatch.fnmatch(p, arguments.files)]
     if not paths:
         return None
     mutants = [m for path in paths for m in mutants_of(path)]
@@ -458,7 +466,7 @@ def main():
     os.makedirs(arguments.out, exist_ok=True)
     if arguments.list:
         for module in arguments.module or MODULES:
-            for path in sorted(glob.glob(MODULES[module][0])):
+            for path in files_of(arguments.build, MODULES[module][0]):
                 for m in mutants_of(path):
                     print(f"{m.path}:{m.line}: {m.kind}: {m.before} => {m.after}")
         return 0

@@ -241,6 +241,56 @@ static size_t check_leaf_rows(const mote_cert_tree *tree, const mote_cert_block 
     return (size_t)leaf->vertex_count * block->active_count;
 }
 
+/* The bound of a function is at least what its row adds up to, at any vertex of a child. */
+static void check_bound(const mote_cert_row *row, size_t lane, double bound)
+{
+    static const double corner[3] = {0, 0, 0};
+    double residual;
+    const double offset = row_value(row, lane, corner, &residual);
+    double sum = fabs(offset) + residual;
+    for (int k = 0; k < 3; ++k) {
+        double z[3] = {0, 0, 0}, ignored;
+        z[k] = 1;
+        sum += fabs(row_value(row, lane, z, &ignored) - offset);
+    }
+    assert_true(bound >= sum * (1 - 1e-15));
+}
+
+static void mark_reached(const mote_cert_tree *tree, int32_t node, bool reached[PADDED])
+{
+    if (node >= 0) {
+        const mote_cert_block *block = &tree->blocks[node];
+        for (size_t l = 0; l < block->children; ++l)
+            mark_reached(tree, block->child[l], reached);
+        return;
+    }
+    const mote_cert_leaf *leaf = &tree->leaves[~node];
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
+        double phi[PADDED];
+        patch_basis(tree->body->field, tree->body->mesh,
+                    tree->leaf_vertices[leaf->first_vertex + i], phi);
+        for (int j = 0; j < PADDED; ++j)
+            reached[j] = reached[j] || phi[j] != 0;
+    }
+}
+
+/* A block lists, in order, the functions that are not 0 at all of its vertices, and no other:
+   a row too many costs time in every query. */
+static void check_listed(const mote_cert_tree *tree, uint32_t number)
+{
+    bool reached[PADDED] = {false};
+    const mote_cert_block *block = &tree->blocks[number];
+    uint32_t k = 0;
+    mark_reached(tree, (int32_t)number, reached);
+    for (uint32_t j = 0; j < PADDED; ++j) {
+        if (reached[j]) {
+            assert_true(k < block->active_count);
+            assert_int_equal(tree->active[block->first_active + k++], j);
+        }
+    }
+    assert_int_equal(block->active_count, k);
+}
+
 /* Denormal numbers are slow on some processors, so no half of a word may make one. */
 static void check_words(const mote_cert_row *row, size_t lane)
 {
@@ -258,9 +308,13 @@ static void check_all_rows(const mote_cert_tree *tree)
         const mote_cert_block *block = &tree->blocks[b];
         const mote_cert_row *rows =
             (const mote_cert_row *)(const void *)(tree->strips + block->first_strip);
+        check_listed(tree, b);
         for (size_t l = 0; l < block->children; ++l) {
-            for (uint32_t k = 0; k < block->active_count; ++k)
+            for (uint32_t k = 0; k < block->active_count; ++k) {
+                const uint32_t j = tree->active[block->first_active + k];
                 check_words(&rows[k], l);
+                check_bound(&rows[k], l, mote_cert_scales_of(tree).bound[j]);
+            }
             compared += block->child[l] < 0 ? check_leaf_rows(tree, block, l) : 0;
         }
     }
