@@ -7,7 +7,8 @@ another constant, a condition negated, a statement left out, two arguments swapp
 is compiled by itself, linked into the tests of its module from BUILD (a release build), and
 run. A mutant is killed when a test fails, crashes or takes much longer than it should. One that
 only the half minute of all answers (tests/studies/answers.c) would find counts as a survivor.
-Those that do not compile, or compile to the very code of the original, are none. A seeded sample of
+Those that do not compile, or compile to the very code of the original, are none; nor is <= in place
+of < where the larger or smaller of two values is taken. A seeded sample of
 N (120) of each module is tried. --part: of all mutants in M samples that have none in common, the Kth.
 
 Mutants that change no answer that the headers promise are listed in
@@ -154,6 +155,32 @@ def is_length(tokens, at):
     return tokens[name][0] == declared[0] == "word" and declared[1] not in ("return", "sizeof")
 
 
+def words_until(tokens, at, ends):
+    """The texts from `at` to before one of the marks, outside of brackets, and where that is."""
+    words = []
+    while at < len(tokens) and tokens[at][1] not in ends + (")", "]", "}", ";"):
+        end = close_of(tokens, at) + 1 if tokens[at][1] in ("(", "[") else at + 1
+        words += [token[1] for token in tokens[at:end]]
+        at = end
+    return words, at
+
+
+def takes_extreme(tokens, k):
+    """Whether the comparison at k is that of A < B ? A : B, or ? B : A: where both are equal, either
+    gives their value."""
+    right, question = words_until(tokens, k + 1, ("?", ","))
+    if question == len(tokens) or tokens[question][1] != "?":
+        return False
+    first, colon = words_until(tokens, question + 1, (":",))
+    second, _ = words_until(tokens, colon + 1, (",",))
+    left = second if first == right else first
+    if right not in (first, second) or left == right:
+        return False
+    start = k - len(left)
+    return (start > 0 and [token[1] for token in tokens[start:k]] == left and
+            tokens[start - 1][1] in ("=", "(", ",", "?", ":", "return"))
+
+
 def split_arguments(tokens, at, end):
     """The arguments of the call whose bracket is at `at`: pairs of positions in the source."""
     parts, depth, first = [], 0, at + 1
@@ -216,8 +243,10 @@ def mutants_of(path):
             if text == "-" and unary:
                 add("sign", start, end, "")
             elif not unary:
+                extreme = text[0] in "<>" and takes_extreme(tokens, k)
                 for other in OTHER_MARK[text]:
-                    add("operator", start, end, other)
+                    if not (extreme and other[0] == text[0]):
+                        add("operator", start, end, other)
         if kind == "word" and text in OTHER_WORD:
             for other in OTHER_WORD[text]:
                 add("word", start, end, other)
