@@ -18,9 +18,14 @@ def rows_of(record, files):
         yield from csv.reader(file.read_text().splitlines(), delimiter="," if file.suffix == ".csv" else "\t")
 
 
-def measured(record):
+def parts_of(record):
+    """How many parts of a study are done, and of how many."""
     study = study_of(record)
-    done, parts = study.get("parts_done", 1), study.get("parts", 1)
+    return study.get("parts_done", 1), study.get("parts", 1)
+
+
+def measured(record):
+    study, (done, parts) = study_of(record), parts_of(record)
     return f"{study['ended'][:10]}, {study['commit'][:7]}" + (f", {done} of {parts} samples" if done < parts else "")
 
 
@@ -34,14 +39,16 @@ def records_of_checks(root):
 
 @functools.cache
 def checks(root):
-    """By name, how many cases were tried, how many failed, and when."""
+    """By name, how many cases were tried, how many failed, and when. A record of some parts counts once it has tried as
+    many as the reference, or where something failed."""
+    before = {row["check"]: (int(row["tried"]), int(row["failed"]), row["date"]) for row in csv_rows(root, RELIABILITY)}
     found = {}
     for record in records_of_checks(root).values():
+        done, parts = parts_of(record)
         for check, tried, failed in rows_of(record, "checks.tsv"):
-            found[check] = (int(tried), int(failed), study_of(record)["ended"][:10])
-    for row in csv_rows(root, RELIABILITY):
-        found.setdefault(row["check"], (int(row["tried"]), int(row["failed"]), row["date"]))
-    return found
+            if done == parts or int(failed) > 0 or int(tried) >= before.get(check, (0,))[0]:
+                found[check] = (int(tried), int(failed), study_of(record)["ended"][:10])
+    return {**found, **{check: row for check, row in before.items() if check not in found}}
 
 
 def checks_table(root):

@@ -91,6 +91,20 @@ grep -qx '| metamorphic: refined | 7,000,000 | 3 | 2027-03-02 |' "$work/docs/fin
 grep -q '^Recorded: .*\[metamorphic\](../results/records/0123456789/metamorphic)' "$work/docs/findings.md" ||
     fail "no heading: $(grep Recorded: "$work/docs/findings.md")"
 
+# Some parts of a study do not take the place of a reference that has tried more, unless they failed.
+record=$work/results/records/0123456789/answers
+mkdir -p "$record"
+row=$(grep -o '"one hash over all answers: builds[^"]*",[0-9]*' "$work/results/reference/reliability.csv" | tr -d '"')
+printf '{\n"study": "answers",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"parts": 7,\n"parts_done": 2\n}\n' \
+    >"$record/study.json"
+printf '%s\t%s\t0\n' "${row%,*}" $((${row##*,} - 1)) >"$record/checks.tsv"
+check 0 "$work"
+grep -q "^| ${row%,*} | ${row##*,} | 0 |" "$work/docs/findings.md" || fail 'fewer cases take the place of more'
+printf '%s\t1\t1\n' "${row%,*}" >"$record/checks.tsv"
+check 0 "$work"
+grep -q "^| ${row%,*} | 1 | 1 | 2027-03-02 |" "$work/docs/findings.md" || fail 'a failure is not shown'
+rm -r "$record"
+
 # The parts of a record are summed, and the table says how many of how many there are.
 record=$work/results/records/0123456789/mutation-skin
 rm -rf "$work"/results/records/*/mutation-triangle
