@@ -269,6 +269,8 @@ def mutants_of(path):
 @functools.cache
 def commands_of(build):
     """Of each file that the build compiles: the words of the command, and its folder."""
+    if not os.path.exists(f"{build}/compile_commands.json"):
+        sys.exit(f"mutate: {build} has no compile_commands.json; make build-tests makes it")
     return {os.path.realpath(entry["file"]): (shlex.split(entry["command"]), entry["directory"])
             for entry in json.load(open(f"{build}/compile_commands.json"))}
 

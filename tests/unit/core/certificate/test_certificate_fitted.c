@@ -244,9 +244,9 @@ static size_t check_leaf_rows(const mote_cert_tree *tree, const mote_cert_block 
 /* The bound of a function is at least what its row adds up to, at any vertex of a child. */
 static void check_bound(const mote_cert_row *row, size_t lane, double bound)
 {
-    static const double corner[3] = {0, 0, 0};
+    static const double centre[3] = {0, 0, 0};
     double residual;
-    const double offset = row_value(row, lane, corner, &residual);
+    const double offset = row_value(row, lane, centre, &residual);
     double sum = fabs(offset) + residual;
     for (int k = 0; k < 3; ++k) {
         double z[3] = {0, 0, 0}, ignored;
