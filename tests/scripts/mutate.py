@@ -46,7 +46,8 @@ MODULES = {
         "core/certificate/*.c",
         ["test_certificate_bounds", "test_certificate_box", "test_certificate_split",
          "test_certificate", "few answers", "test_certificate_fitted", "test_allocations",
-         "test_certificate_limits", "test_certificate_apart", "test_scene_sift", "test_scene"],
+         "test_certificate_limits", "test_certificate_apart", "test_pair_list", "test_scene_sift",
+         "test_scene"],
     ),
     "stream": (
         "core/stream/*.c",
