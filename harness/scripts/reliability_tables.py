@@ -48,7 +48,9 @@ def checks(root):
         for check, tried, failed in rows_of(record, "checks.tsv"):
             if done == parts or int(failed) > 0 or int(tried) >= before.get(check, (0,))[0]:
                 found[check] = (int(tried), int(failed), study_of(record)["ended"][:10])
-    return {**found, **{check: row for check, row in before.items() if check not in found}}
+    for check, row in before.items():
+        found.setdefault(check, row)
+    return found
 
 
 def checks_table(root):
