@@ -91,12 +91,16 @@ grep -qx '| metamorphic: refined | 7,000,000 | 3 | 2027-03-02 |' "$work/docs/fin
 grep -q '^Recorded: .*\[metamorphic\](../results/records/0123456789/metamorphic)' "$work/docs/findings.md" ||
     fail "no heading: $(grep Recorded: "$work/docs/findings.md")"
 
+describe_parts() { # STUDY PARTS DONE
+    printf '{\n"study": "%s",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"parts": %s,\n"parts_done": %s\n}\n' \
+        "$@" >"$record/study.json"
+}
+
 # Some parts of a study do not take the place of a reference that has tried more, unless they failed.
 record=$work/results/records/0123456789/answers
 mkdir -p "$record"
 row=$(grep -o '"one hash over all answers: builds[^"]*",[0-9]*' "$work/results/reference/reliability.csv" | tr -d '"')
-printf '{\n"study": "answers",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"parts": 7,\n"parts_done": 2\n}\n' \
-    >"$record/study.json"
+describe_parts answers 7 2
 printf '%s\t%s\t0\n' "${row%,*}" $((${row##*,} - 1)) >"$record/checks.tsv"
 check 0 "$work"
 grep -q "^| ${row%,*} | ${row##*,} | 0 |" "$work/docs/findings.md" || fail 'fewer cases take the place of more'
@@ -111,8 +115,7 @@ rm -rf "$work"/results/records/*/mutation-triangle
 mkdir -p "$record"
 printf 'skin\t1000\t800\t0\n' >"$record/mutation-1.tsv"
 printf 'skin\t1000\t900\t100\n' >"$record/mutation-2.tsv"
-printf '{\n"study": "mutation-skin",\n"commit": "0123456789",\n"ended": "2027-03-02T12:00:00.000Z",\n"parts": 10,\n"parts_done": 2\n}\n' \
-    >"$record/study.json"
+describe_parts mutation-skin 10 2
 page=results/reference/reliability.md
 check 1 "$work" --check
 says "$page: a table is not that of its source"

@@ -269,10 +269,10 @@ def mutants_of(path):
 
 @functools.cache
 def commands_of(build):
-    """Of each file that the build compiles: the words of the command, and its folder."""
+    """How the build compiles each of its files: entries of compile_commands.json."""
     if not os.path.exists(f"{build}/compile_commands.json"):
         sys.exit(f"mutate: {build} has no compile_commands.json; make build-tests makes it")
-    return {os.path.realpath(entry["file"]): (shlex.split(entry["command"]), entry["directory"])
+    return {os.path.realpath(entry["file"]): entry
             for entry in json.load(open(f"{build}/compile_commands.json"))}
 
 
@@ -282,9 +282,11 @@ def files_of(build, pattern):
 
 
 def compile_command(build, path):
-    words, directory = commands_of(build)[os.path.realpath(path)]
+    entry = commands_of(build).get(os.path.realpath(path))
+    if entry is None:
+        sys.exit(f"mutate: {path} is not compiled in {build}")
     kept, skip = [], False
-    for word in words:
+    for word in shlex.split(entry["command"]):
         if skip or word in ("ccache", "-c") or word.endswith("/ccache"):
             skip = False
         elif word == "-o":
@@ -295,7 +297,7 @@ def compile_command(build, path):
     # Arguments of another type do not make mutants; warnings are discarded.
     strict = [f"-Werror={name}" for name in ("incompatible-pointer-types", "int-conversion",
                                              "discarded-qualifiers", "return-type")]
-    return kept + ["-O1"] + strict, directory
+    return kept + ["-O1"] + strict, entry["directory"]
 
 
 def program_of(test):
