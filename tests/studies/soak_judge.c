@@ -88,9 +88,23 @@ static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answ
     return status;
 }
 
+/* What the rounding of a lower bound is proportional to: L, and what a field adds up to before
+   its parts cancel. The weights of a thin body whose two sides are displaced differently are
+   thousands of times as large as what it is displaced by. */
+static double terms(const mote_frame *frame, double length)
+{
+    double sum = length;
+    for (int b = 0; b < 2; ++b) {
+        const mote_weights *weights = &frame->body[b].weights;
+        for (uint32_t j = 0; j < weights->count; ++j)
+            sum += fabs(weights->x[j]) + fabs(weights->y[j]) + fabs(weights->z[j]);
+    }
+    return sum;
+}
+
 /* Counts one answer; true when it is a failure. */
 static bool count(soak_tally *tally, const mote_answer *answer, int m, double truth,
-                  double length)
+                  double length, double rounding)
 {
     const double error = fabs(answer->distance - truth) / length;
     const bool violated = answer->has_lower && !(answer->lower <= truth + 1e-15 * length);
@@ -98,7 +112,7 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
     if (m < SOAK_EXACT && m != BOUNDED)
         wrong = wrong || !(error <= RIGHT);
     if (m < BOUNDED)
-        wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, length);
+        wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, rounding);
     /* Witnesses lie on the surfaces, so no method's distance may be below the truth. */
     wrong = wrong || answer->distance < truth - RIGHT * length;
     if (answer->has_witness && answer->distance > 0)
@@ -116,6 +130,8 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
     tally->false_contacts += truth > RIGHT * length && answer->distance <= CONTACT;
     if (!(error <= tally->largest))
         tally->largest = error;
+    if (m < BOUNDED && !((truth - answer->lower) / length <= tally->loosest))
+        tally->loosest = (truth - answer->lower) / length;
     return wrong || violated;
 }
 
@@ -129,13 +145,16 @@ static mote_status judge_frame(bench *b, uint32_t number, uint32_t previous)
         if (status != MOTE_OK)
             return status;
     }
-    if (b->plant && b->plant->frame == number)
-        answers[0].distance = answers[0].distance * (1 + 1e-9) + 1e-9 * b->scenario->length;
+    const double length = b->scenario->length, rounding = terms(frame, length);
+    if (b->plant && b->plant->frame == number) {
+        answers[0].distance = answers[0].distance * (1 + 1e-9) + 1e-9 * length;
+        answers[1].lower = 0;
+    }
     double truth;
     mote_status status = find_truth(b, frame, answers, &truth);
     for (int m = 0; m < SOAK_METHODS && status == MOTE_OK; ++m) {
         if (b->probe[m] &&
-            count(&b->verdict.tally[m], &answers[m], m, truth, b->scenario->length) &&
+            count(&b->verdict.tally[m], &answers[m], m, truth, length, rounding) &&
             b->verdict.failed_frame == 0)
             b->verdict.failed_frame = number;
     }

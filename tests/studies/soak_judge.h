@@ -14,11 +14,14 @@ extern const char *const soak_methods[SOAK_METHODS];
 
 typedef struct soak_tally {
     uint64_t queries;
-    uint64_t wrong; /* exact methods: not within 1e-12 L; all: NaN, negative, below a bound */
+    uint64_t wrong;    /* exact methods: distance not within 1e-12 L, or lower bound not within
+                          1e-12 of what its rounding is proportional to; all: NaN, negative, below
+                          the truth */
     uint64_t violated; /* a proven lower bound above the truth */
     uint64_t missed, false_contacts;
     uint64_t decades[SOAK_DECADES]; /* errors over L: [0] below 1e-16, [k] below 10^(k - 16) */
     double largest;                 /* error over L */
+    double loosest;                 /* truth less lower bound, over L; of certified only */
 } soak_tally;
 
 typedef struct soak_verdict {
@@ -28,8 +31,8 @@ typedef struct soak_verdict {
     soak_tally tally[SOAK_METHODS];
 } soak_verdict;
 
-/* A wrong answer to plant, which must be found: certified's distance at a frame, times 1 +
-   1e-9. Frame 0: none. */
+/* Wrong answers to plant, which must be found, at a frame: certified's distance is altered by
+   1e-9, and certified:seed=none has no lower bound but 0. Frame 0: none. */
 typedef struct soak_plant {
     uint32_t frame;
 } soak_plant;
