@@ -3,12 +3,12 @@
    second hash covers their counts (core/method/method.h), that is, how they got there. Every
    compiler, optimisation, number of threads and repetition must give the same bits.
 
-   answers [--few] [--runs N] [--threads K] [--check FILE]
+   answers [--few] [--method NAME] [--runs N] [--threads K] [--check FILE]
    prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
    compares with FILE; exit status 1 where a line differs. --threads: K jobs run at once, each
    a scenario and a method of its own. --few: 24 small scenarios, and their lines, in a second
-   instead of half a minute. If you change a method on purpose, renew tests/answers.txt from the
-   whole output once make determinism agrees on it. */
+   instead of half a minute. --method: of one method only. If you change a method on purpose,
+   renew tests/answers.txt from the whole output once make determinism agrees on it. */
 #include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
@@ -154,23 +154,32 @@ static bool is_among(const char *const *names, int count, const char *name)
     return found;
 }
 
-/* Loads the scenarios one by one; each makes METHODS jobs. */
-static mote_status load(const mote_catalog *catalog, bool only_few, mote_scenario **scenarios,
-                        work *w)
+typedef struct options {
+    uint64_t runs, threads;
+    const char *check, *method; /* NULL: nothing to compare with; all methods */
+    bool few;
+} options;
+
+/* Loads the scenarios one by one; each makes a job for every method that is asked. */
+static mote_status load(const mote_catalog *catalog, const options *o,
+                        mote_scenario **scenarios, work *w)
 {
     mote_status status = MOTE_OK;
     size_t loaded = 0;
     for (size_t k = 0; k < catalog->count && status == MOTE_OK; ++k) {
         const char *name = catalog->entries[k].name;
         if (catalog->entries[k].several || is_among(large, LARGE, name) ||
-            (only_few && !is_among(few, FEW, name)))
+            (o->few && !is_among(few, FEW, name)))
             continue;
         status = mote_scenario_load(name, &scenarios[loaded]);
-        for (int m = 0; m < METHODS && status == MOTE_OK; ++m)
-            w->jobs[w->count++] = (job){.scenario = scenarios[loaded], .method = methods[m]};
+        for (int m = 0; m < METHODS && status == MOTE_OK; ++m) {
+            if (!o->method || strcmp(o->method, methods[m]) == 0)
+                w->jobs[w->count++] =
+                    (job){.scenario = scenarios[loaded], .method = methods[m]};
+        }
         loaded += status == MOTE_OK;
     }
-    if (status == MOTE_OK && only_few && loaded != FEW)
+    if (status == MOTE_OK && o->few && loaded != FEW)
         status =
             mote_fail(MOTE_EINVAL, "%zu of the %d small scenarios are built in", loaded, FEW);
     return status;
@@ -196,7 +205,7 @@ static char *report(const work *w)
 }
 
 /* Prints the lines of text that are not in expected; returns true if there are none, and, of
-   all scenarios, nothing else is in expected. */
+   all scenarios and methods, nothing else is in expected. */
 static bool compare(const char *text, const char *expected, bool all)
 {
     bool same = !all || strcmp(text, expected) == 0;
@@ -216,12 +225,6 @@ static bool compare(const char *text, const char *expected, bool all)
     return same;
 }
 
-typedef struct options {
-    uint64_t runs, threads;
-    const char *check;
-    bool few;
-} options;
-
 static bool read_options(int argc, char **argv, options *o)
 {
     o->few = argc > 1 && strcmp(argv[1], "--few") == 0;
@@ -230,6 +233,8 @@ static bool read_options(int argc, char **argv, options *o)
     for (int i = first; i + 1 < argc && good; i += 2) {
         if (strcmp(argv[i], "--check") == 0)
             o->check = argv[i + 1];
+        else if (strcmp(argv[i], "--method") == 0)
+            good = is_among(methods, METHODS, o->method = argv[i + 1]);
         else if (strcmp(argv[i], "--runs") == 0)
             good = mote_read_unsigned(argv[i + 1], 1, 1000000, &o->runs);
         else
@@ -237,8 +242,8 @@ static bool read_options(int argc, char **argv, options *o)
                    mote_read_unsigned(argv[i + 1], 1, THREADS_MAX, &o->threads);
     }
     if (!good)
-        (void)fprintf(stderr,
-                      "usage: answers [--few] [--runs N] [--threads K] [--check FILE]\n");
+        (void)fprintf(stderr, "usage: answers [--few] [--method NAME] [--runs N] [--threads K] "
+                              "[--check FILE]\n");
     return good;
 }
 
@@ -259,7 +264,7 @@ static mote_status run(const options *o, work *w, bool *same)
         if (text && k == 0)
             (void)fputs(o->check ? strstr(text, "\nall ") + 1 : text, stdout);
         if (text && first)
-            *same = compare(text, first, !o->few) && *same;
+            *same = compare(text, first, !o->few && !o->method) && *same;
         if (!first)
             first = text;
         else
@@ -283,7 +288,7 @@ int main(int argc, char **argv)
         status = mote_fail(MOTE_ENOMEM, "no memory for the scenarios");
     bool same = false;
     if (status == MOTE_OK)
-        status = load(&catalog, o.few, scenarios, &w);
+        status = load(&catalog, &o, scenarios, &w);
     if (status == MOTE_OK)
         status = run(&o, &w, &same);
     if (status != MOTE_OK)
