@@ -20,9 +20,9 @@ from character_tables import CHARACTERS, PARTS, characters, characters_table, ex
 from engine_tables import ENGINES, PEERS, engines_table, is_tree, ode_to_fcl, peers_tables, times
 from impact_tables import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, continuous_to_sampled, fcl_table, impact_table,
                            long_questions, long_steps_table, short_steps_table, sums)
-from number_text import digits, exact_text, interval, percent, size, span
+from number_text import digits, exact_text, interval, percent, power, size, span
 from records import by_method, csv_rows, file_of, has_changed, is_right, record_of, study_of
-from reliability_tables import GATHERED, checks, soaked
+from reliability_tables import GATHERED, checks, furthest_off, soaked
 from tune_tables import TUNE, count_of_settings, fastest_not_asked, oriented_to_boxes, tune_table
 
 SUMMARY = "reference/summary.json"
@@ -629,6 +629,11 @@ SENTENCES = [
      "from it, for a reason given there, and {} lower bounds above it", lambda root: (
         *reversed(failures(root, "certified beyond 1e-12 L of the truth")),
         failures(root, "a lower bound above the truth")[0])),
+    ("docs/findings.md", "The answer is wrong by {} L, and", lambda root: (power(furthest_off(root)[0]),)),
+    ("docs/findings.md", "In another such scene it lies {} L below, the most in these scenarios", lambda root: (
+        power(furthest_off(root)[1]),)),
+    ("docs/findings.md", "a lower bound {} L below the distance, and [one distance](#how-far-an-exact-answer-can-be-trusted) too "
+     "large by {} L", lambda root: map(power, reversed(furthest_off(root)))),
     ("docs/findings.md", "random scenes in {:.1f} % of {:,} frames ({:,} missed). The paper's particles, five a body, are "
      "exact in {:.0f} % of {:,} such frames and miss {:,} contacts; `aabb-tree` is exact in all, and `certified` within "
      "1e-12 L in all but {}", lambda root: (

@@ -32,3 +32,9 @@ def digits(value):
 
 def span(values):
     return (min(values), max(values))
+
+
+def power(value):
+    """Two digits and a power of ten: 4.4e-5."""
+    digits_of, exponent = f"{value:.1e}".split("e")
+    return f"{digits_of}e{int(exponent)}"

@@ -2,6 +2,7 @@
 and from the reference (tests/scripts/record.sh) where that has what no record has."""
 import csv
 import functools
+import json
 from collections import defaultdict, namedtuple
 
 from records import csv_rows, newest, study_of
@@ -141,6 +142,13 @@ def soaks(root):
         found[method] = Soak(sums.queries + int(queries), sums.missed + int(missed), max(sums.largest, float(largest)),
                              {k: sums.decades[k] + int(count) for k, count in zip(DECADES, counts)})
     return found
+
+
+def furthest_off(root):
+    """Over L: the largest error of a distance of certified, and how far its lower bound lay below at most."""
+    bounds = [method["loosest_bound"] for record in newest(root, "soak", "soak*.json").values()
+              for file in record.glob("soak*.json") for method in json.loads(file.read_text())["methods"]]
+    return soaks(root)["certified"].largest, max(bounds, default=0)
 
 
 def share(soak, decade):
