@@ -16,7 +16,7 @@ SOAK = "reference/soak.csv"
 def rows_of(record, files):
     """The lines of the files of all parts, as lists of fields."""
     for file in sorted(record.glob(files)):
-        yield from csv.reader(file.read_text().splitlines(), delimiter="," if file.suffix == ".csv" else "\t")
+        yield from csv.reader(file.read_text().splitlines(), delimiter="\t")
 
 
 def parts_of(record):
@@ -122,14 +122,22 @@ DECADES = range(16, -2, -1)
 
 
 def records_of_soak(root):
-    return newest(root, "soak", "soak*.csv")
+    return newest(root, "soak", "soak*.json")
+
+
+@functools.cache
+def soaked_methods(root):
+    """What each part of the record has of each method."""
+    return [method for record in records_of_soak(root).values() for file in record.glob("soak*.json")
+            for method in json.loads(file.read_text())["methods"]]
 
 
 def soak_lines(root):
     """Method and numbers of each run that is stored: of the record, or of the reference while that has more."""
     stored = [[row["method"], row["queries"], row["missed"], row["false_contacts"], row["largest_error"],
                *(row[f"below_1e-{k}"] for k in DECADES[:-1]), row["more"]] for row in csv_rows(root, SOAK)]
-    recorded = [line for record in records_of_soak(root).values() for line in rows_of(record, "soak*.csv")]
+    recorded = [[*(method[key] for key in ("method", "queries", "missed", "false_contacts", "largest_error")),
+                 *method["decades"]] for method in soaked_methods(root)]
     return max(stored, recorded, key=lambda rows: sum(int(row[1]) for row in rows))
 
 
@@ -146,8 +154,7 @@ def soaks(root):
 
 def furthest_off(root):
     """Over L: the largest error of a distance of certified, and how far its lower bound lay below at most."""
-    bounds = [method["loosest_bound"] for record in newest(root, "soak", "soak*.json").values()
-              for file in record.glob("soak*.json") for method in json.loads(file.read_text())["methods"]]
+    bounds = (method["loosest_bound"] for method in soaked_methods(root))
     return soaks(root)["certified"].largest, max(bounds, default=0)
 
 
