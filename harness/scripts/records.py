@@ -33,14 +33,20 @@ def file_of(root, source):
 
 
 @functools.cache
-def has_changed(root, study):
-    """Whether the sources of a recorded study have changed since; None without the repository that tells."""
+def changed_studies(root):
+    """The recorded studies whose sources have changed since; None without the repository that tells."""
     listed = subprocess.run(
         ["bash", "harness/scripts/studies.sh", "harness/scripts/studies.tsv", "results/records", "results/record",
-         "list"], cwd=root, env={**os.environ, "ONLY": study}, capture_output=True, text=True, check=False)
+         "list"], cwd=root, env={**os.environ, "ONLY": ""}, capture_output=True, text=True, check=False)
     if listed.returncode > 1:
         return None
-    return any(reason in listed.stdout for reason in (" changed since ", " other sources than "))
+    return {line.split()[0] for line in listed.stdout.splitlines()
+            if " changed since " in line or " other sources than " in line}
+
+
+def has_changed(root, study):
+    changed = changed_studies(root)
+    return changed if changed is None else study in changed
 
 
 @functools.cache

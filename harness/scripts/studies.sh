@@ -37,24 +37,27 @@ compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
-    sed -nE "s/^ *\"$2\": (\"([^\"]*)\"|([^\",]+)),?$/\2\3/p" "$1"
+    local line
+    while read -r line; do
+        if [[ $line = "\"$2\": "* ]]; then
+            line=${line#*: } line=${line%,} line=${line#\"}
+            echo "${line%\"}"
+        fi
+    done <"$1"
 }
 # One hash for the files below some paths, as they are in this tree; texts are no sources.
 hash_of() { # PATH...
-    [ -n "$(git ls-files -- "$@")" ] || fail "$table: $name: there is no file in $*"
-    { git ls-files -s -- "$@" "$no_texts" && git diff HEAD -- "$@" "$no_texts"; } | git hash-object --stdin | cut -c 1-16
+    local listed hash
+    listed=$(git ls-files -s -- "$@" "$no_texts")
+    [ -n "$listed" ] || fail "$table: $name: there is no file in $*"
+    hash=$({ echo "$listed" && git diff HEAD -- "$@" "$no_texts"; } | git hash-object --stdin)
+    echo "${hash:0:16}"
 }
 # The newest record of the study, "" if there is none.
 newest() {
-    local file date last='' found=''
-    for file in "$records"/*/"$name"/study.json; do
-        [ -f "$file" ] || continue
-        date=$(value "$file" ended)
-        if [[ ! $date < $last ]]; then
-            last=$date found=$file
-        fi
-    done
-    echo "$found"
+    local files=("$records"/*/"$name"/study.json)
+    [ -f "${files[0]}" ] || return 0
+    awk -F'"' '$2 == "ended" && $4 >= last { last = $4; found = FILENAME } END { print found }' "${files[@]}"
 }
 has_these_sources() { # STUDY.JSON
     [ "$(value "$1" sources_hash)" = "$hash" ] || [ "$(value "$1" same_program)" = "$hash" ]

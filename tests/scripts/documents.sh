@@ -56,7 +56,9 @@ describe() { # HASH ENDED
 describe 0000000000000000 2027-03-01T12:00:00.000Z
 check 1 "$work" --check
 says 'docs/findings.md: a table is not that of its source'
-sources=$(awk -F'\t' '$1 == "dynamics" { print $5 }' "$work/harness/scripts/studies.tsv")
+table=$work/harness/scripts/studies.tsv
+sed -i -n '/^dynamics\t/p' "$table"
+sources=$(cut -f 5 "$table")
 (
     cd "$work"
     for source in $sources; do mkdir -p "$source" && echo 1 >"$source/one"; done
