@@ -36,6 +36,7 @@ AUTO = "auto/auto.txt"
 ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
 VERDICTS = "verdicts/verdicts.txt"
+LARGE_VERDICTS = "verdicts-large/verdicts.txt"
 READERS = "readers/readers.md"
 ANIMATED = "readers/characters.txt"
 PYTHON = "python-speed/python-speed.txt"
@@ -308,9 +309,9 @@ def ablation_table(root):
         yield f"| `{option}` | {' | '.join(f'{time:.2f}' for time in times)} |"
 
 
-def verdicts_table(root):
+def verdicts_table(root, source=VERDICTS):
     """The first table of make verdicts: a row {method, scenarios, frames, contacts, missed, invented} until an empty line."""
-    rows = [line.split() for line in file_of(root, VERDICTS).read_text().split("\n\n")[0].splitlines()[1:]]
+    rows = [line.split() for line in file_of(root, source).read_text().split("\n\n")[0].splitlines()[1:]]
     yield "| | scenarios | frames | contacts | missed / invented |"
     yield "| --- | ---: | ---: | ---: | ---: |"
     for label, scenarios, frames, contacts, missed, invented in rows:
@@ -408,8 +409,10 @@ def python_table(root):
 
 
 TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
-          PEERS: peers_tables, VERDICTS: verdicts_table, DYNAMICS: dynamics_table, LONG_STEPS: long_steps_table,
-          SHORT_STEPS: short_steps_table, SPEED: impact_table, FCL_SPEED: fcl_table, CHARACTERS: characters_table,
+          PEERS: peers_tables, VERDICTS: verdicts_table,
+          LARGE_VERDICTS: functools.partial(verdicts_table, source=LARGE_VERDICTS), DYNAMICS: dynamics_table,
+          LONG_STEPS: long_steps_table, SHORT_STEPS: short_steps_table, SPEED: impact_table, FCL_SPEED: fcl_table,
+          CHARACTERS: characters_table,
           TUNE: tune_table, PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table,
           AUTO: auto_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
