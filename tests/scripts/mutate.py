@@ -4,9 +4,9 @@
 
 Makes small changes in the files of each module, one at a time: another comparison or operator,
 another constant, a condition negated, a statement left out, two arguments swapped. Each mutant
-is compiled by itself, linked into the tests of its module from BUILD (a release build), and
-run. A mutant is killed when a test fails, crashes or takes much longer than it should. One that
-only the half minute of all answers (tests/studies/answers.c) would find counts as a survivor.
+is compiled by itself, linked into those tests of its module from BUILD (a release build) that
+execute its line, and run. A mutant is killed when a test fails, crashes or takes much longer than it
+should. One that only the half minute of all answers (tests/studies/answers.c) would find counts as a survivor.
 Those that do not compile, or compile to the very code of the original, are none; nor is <= in place
 of < where the larger or smaller of two values is taken. A seeded sample of
 N (120) of each module is tried. --part: of all mutants in M samples that have none in common, the Kth.
@@ -46,9 +46,9 @@ MODULES = {
     "certificate": (
         "core/certificate/*.c",
         ["test_certificate_bounds", "test_certificate_box", "test_certificate_split",
-         "test_certificate", "few certified answers", "test_certificate_fitted", "test_allocations",
-         "test_certificate_limits", "test_certificate_apart", "test_pair_list", "test_scene_sift",
-         "test_scene", "few answers"],
+         "test_certificate", "tt answers", "ww answers", "hands answers", "test_certificate_fitted",
+         "test_allocations", "test_certificate_limits", "test_certificate_apart", "test_pair_list",
+         "test_scene_sift", "test_scene", "few answers"],
     ),
     "stream": (
         "core/stream/*.c",
@@ -65,8 +65,9 @@ MODULES = {
 # They count what is allocated, by functions in place of libc's, and so cannot look for leaks.
 COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_allocations_impact", "test_scene"}
 HEAP_COUNT = "harness/base/heap_count.c"
-FEW_ANSWERS = ["--few", "--check", "tests/answers.txt"]
-ARGUMENTS = {"few answers": FEW_ANSWERS, "few certified answers": FEW_ANSWERS + ["--method", "certified"]}
+CHECK = ["--check", "tests/answers.txt"]
+ARGUMENTS = {f"{name} answers": ["--scenario", name] + CHECK for name in ("tt", "ww", "hands")}
+ARGUMENTS["few answers"] = ["--few"] + CHECK
 # Less than half the time of the default linker; and libraries that a test does not use take longer to load than
 # most tests take to run.
 QUICK_LINK = ["-fuse-ld=gold", "-Wl,--as-needed"]
@@ -110,6 +111,8 @@ class Mutant:
         self.before = squeeze(source[from_line:to_line])
         self.after = squeeze(source[from_line:start] + text + source[end:to_line])
         self.killed_by = None
+
+        self.last_line = line + source.count("\n", start, end)
 
     def name(self):
         return f"{self.path}: {self.before} => {self.after}"
@@ -349,7 +352,7 @@ class Bench:
         self.build, self.work, self.tests = os.path.abspath(build), work, tests
         self.source_dir = os.getcwd()
         self.links = {test: link_command(self.build, program_of(test)) for test in tests}
-        self.seconds, self.costs, self.originals = {}, {}, {}
+        self.seconds, self.costs, self.originals, self.executed = {}, {}, {}, {}
         self.tried, self.killed = collections.Counter(), collections.Counter()  # by test, and by file and test
         # In the place of the harness's own: that one replaces the functions that the leak check does.
         self.uncounted = f"{work}/uncounted.o"
@@ -367,14 +370,17 @@ class Bench:
             input=source.encode(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return made if result.returncode == 0 else None
 
-    def link(self, test, made, folder):
+    def link(self, test, made, folder, flags=()):
+        """The program of a test with these objects, words in a list, in the place of its own."""
         words, directory = self.links[test]
         words = list(words)
         at = words.index("-o")
         program = f"{folder}/{program_of(test)}"
+        if os.path.exists(program):
+            return program
         words[at + 1] = program
         first = next(k for k, w in enumerate(words) if w.endswith(".o"))
-        words[first:first] = QUICK_LINK + [made]
+        words[first:first] = QUICK_LINK + [*flags, *made]
         if test not in COUNTS_HEAP:
             words[first:first] = [self.uncounted, "-fsanitize=leak"]
         result = subprocess.run(words, cwd=directory, capture_output=True, text=True)
@@ -402,12 +408,26 @@ class Bench:
             self.originals[path] = code_of(made)
         for test in self.tests:
             begin = children_seconds()
-            program = self.link(test, made, folder)
+            program = self.link(test, [made], folder)
             linked = children_seconds()
             if self.run(program, test, folder, 600) != 0:
                 sys.exit(f"mutate: {test} fails without a mutant")
             self.costs[test] = children_seconds() - begin
             self.seconds[test] = int(4 * (children_seconds() - linked) + 3)
+        self.count_lines(paths)
+
+    def count_lines(self, paths):
+        """How often each test executes each line of the files."""
+        folder = tempfile.mkdtemp(dir=self.work)
+        made = [f"{folder}/{os.path.basename(path)[:-2]}.o" for path in paths]
+        for path, name in zip(paths, made):
+            words, directory = compile_command(self.build, path)
+            subprocess.run(words + ["-O0", "--coverage", "-c", "-o", name, f"{self.source_dir}/{path}"],
+                           cwd=directory, check=True)
+        for test in self.tests:
+            if self.run(self.link(test, made, folder, ["--coverage"]), test, folder, 600) != 0:
+                sys.exit(f"mutate: {test} fails when its lines are counted")
+            self.executed[test] = {path: lines_of(name) for path, name in zip(paths, made)}
 
     def gain(self, path, test):
         """How many mutants of this file a test is expected to kill a second, by those that it was run on."""
@@ -415,8 +435,15 @@ class Bench:
         of_file = (overall + self.killed[path, test]) / (1 + self.tried[path, test])
         return of_file / self.costs[test]
 
+    def reaches(self, test, mutant):
+        """Whether the test may notice the mutant: not if it executes none of its lines. A label is no such
+        line, nor is one that gcov does not count, such as a constant's."""
+        count = self.executed[test][mutant.path]
+        lines = range(mutant.line, mutant.last_line + 1)
+        return "case " in mutant.before or any(count.get(line, 1) for line in lines)
+
     def kills(self, test, mutant, made, folder):
-        program = self.link(test, made, folder)
+        program = self.link(test, [made], folder)
         killed = self.run(program, test, folder, self.seconds[test]) != 0
         for key in test, (mutant.path, test):
             self.tried[key] += 1
@@ -432,7 +459,7 @@ class Bench:
             if made is None or code_of(made) == self.originals[mutant.path]:
                 return "none"
             for test in sorted(self.tests, key=lambda test: -self.gain(mutant.path, test)):
-                if self.kills(test, mutant, made, folder):
+                if self.reaches(test, mutant) and self.kills(test, mutant, made, folder):
                     return f"killed by {test}"
         return "survived"
 
@@ -443,6 +470,21 @@ def code_of(made):
                            ".rodata.cst8", "-j", ".rodata.cst16", "-j", ".data.rel.ro.local",
                            made], capture_output=True).stdout
     return hashlib.sha256(text[text.find(b"\n", text.find(b"file format")):]).hexdigest()
+
+
+def lines_of(made):
+    """How often each line of a file was executed, by number, which starts from 0 again then; {}: not counted."""
+    counts = collections.Counter()
+    name = made[:-2]
+    if os.path.exists(f"{name}.gcda"):
+        text = subprocess.run(["gcov", "--json-format", "--stdout", made], cwd=os.path.dirname(made),
+                              capture_output=True, check=True).stdout
+        os.remove(f"{name}.gcda")
+        for file in json.loads(text)["files"]:
+            if os.path.basename(file["file"]) == f"{os.path.basename(name)}.c":
+                for line in file["lines"]:
+                    counts[line["line_number"]] += line["count"]
+    return counts
 
 
 def read_equivalents():

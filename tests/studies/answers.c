@@ -3,12 +3,12 @@
    second hash covers their counts (core/method/method.h), that is, how they got there. Every
    compiler, optimisation, number of threads and repetition must give the same bits.
 
-   answers [--few] [--method NAME] [--runs N] [--threads K] [--check FILE]
+   answers [--few] [--scenario NAME] [--method NAME] [--runs N] [--threads K] [--check FILE]
    prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
    compares with FILE; exit status 1 where a line differs. --threads: K jobs run at once, each
    a scenario and a method of its own. --few: 24 small scenarios, and their lines, in a second
-   instead of half a minute. --method: of one method only. If you change a method on purpose,
-   renew tests/answers.txt from the whole output once make determinism agrees on it. */
+   instead of half a minute. --scenario, --method: of one only. If you change a method on
+   purpose, renew tests/answers.txt from the whole output once make determinism agrees on it. */
 #include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
@@ -156,7 +156,7 @@ static bool is_among(const char *const *names, int count, const char *name)
 
 typedef struct options {
     uint64_t runs, threads;
-    const char *check, *method; /* NULL: nothing to compare with; all methods */
+    const char *check, *scenario, *method; /* NULL: nothing to compare with; all */
     bool few;
 } options;
 
@@ -169,7 +169,8 @@ static mote_status load(const mote_catalog *catalog, const options *o,
     for (size_t k = 0; k < catalog->count && status == MOTE_OK; ++k) {
         const char *name = catalog->entries[k].name;
         if (catalog->entries[k].several || is_among(large, LARGE, name) ||
-            (o->few && !is_among(few, FEW, name)))
+            (o->few && !is_among(few, FEW, name)) ||
+            (o->scenario && strcmp(o->scenario, name) != 0))
             continue;
         status = mote_scenario_load(name, &scenarios[loaded]);
         for (int m = 0; m < METHODS && status == MOTE_OK; ++m) {
@@ -179,7 +180,10 @@ static mote_status load(const mote_catalog *catalog, const options *o,
         }
         loaded += status == MOTE_OK;
     }
-    if (status == MOTE_OK && o->few && loaded != FEW)
+    if (status == MOTE_OK && o->scenario && loaded != 1)
+        status = mote_fail(MOTE_EINVAL, "--scenario %s: there is none of this name here",
+                           o->scenario);
+    else if (status == MOTE_OK && o->few && !o->scenario && loaded != FEW)
         status =
             mote_fail(MOTE_EINVAL, "%zu of the %d small scenarios are built in", loaded, FEW);
     return status;
@@ -233,6 +237,8 @@ static bool read_options(int argc, char **argv, options *o)
     for (int i = first; i + 1 < argc && good; i += 2) {
         if (strcmp(argv[i], "--check") == 0)
             o->check = argv[i + 1];
+        else if (strcmp(argv[i], "--scenario") == 0)
+            o->scenario = argv[i + 1];
         else if (strcmp(argv[i], "--method") == 0)
             good = is_among(methods, METHODS, o->method = argv[i + 1]);
         else if (strcmp(argv[i], "--runs") == 0)
@@ -242,8 +248,9 @@ static bool read_options(int argc, char **argv, options *o)
                    mote_read_unsigned(argv[i + 1], 1, THREADS_MAX, &o->threads);
     }
     if (!good)
-        (void)fprintf(stderr, "usage: answers [--few] [--method NAME] [--runs N] [--threads K] "
-                              "[--check FILE]\n");
+        (void)fprintf(stderr,
+                      "usage: answers [--few] [--scenario NAME] [--method NAME] [--runs N] "
+                      "[--threads K] [--check FILE]\n");
     return good;
 }
 
@@ -264,7 +271,7 @@ static mote_status run(const options *o, work *w, bool *same)
         if (text && k == 0)
             (void)fputs(o->check ? strstr(text, "\nall ") + 1 : text, stdout);
         if (text && first)
-            *same = compare(text, first, !o->few && !o->method) && *same;
+            *same = compare(text, first, !o->few && !o->scenario && !o->method) && *same;
         if (!first)
             first = text;
         else
