@@ -24,6 +24,7 @@ from number_text import digits, exact_text, interval, percent, power, size, span
 from records import by_method, csv_rows, file_of, has_changed, is_right, record_of, study_of
 from reliability_tables import GATHERED, checks, furthest_off, soaked
 from tune_tables import TUNE, count_of_settings, fastest_not_asked, oriented_to_boxes, tune_table
+from verdict_tables import LARGE_VERDICTS, VERDICTS, convex, invented, oriented_bottom_up, verdicts_table
 
 SUMMARY = "reference/summary.json"
 CLAIMS = "claims/claims.json"
@@ -35,8 +36,6 @@ RATIOS = "ratios/ratios.txt"
 AUTO = "auto/auto.txt"
 ABLATION = "ablation/summary.csv"
 INGREDIENTS = "ingredients/summary.csv"
-VERDICTS = "verdicts/verdicts.txt"
-LARGE_VERDICTS = "verdicts-large/verdicts.txt"
 READERS = "readers/readers.md"
 ANIMATED = "readers/characters.txt"
 PYTHON = "python-speed/python-speed.txt"
@@ -309,15 +308,6 @@ def ablation_table(root):
         yield f"| `{option}` | {' | '.join(f'{time:.2f}' for time in times)} |"
 
 
-def verdicts_table(root, source=VERDICTS):
-    """The first table of make verdicts: a row {method, scenarios, frames, contacts, missed, invented} until an empty line."""
-    rows = [line.split() for line in file_of(root, source).read_text().split("\n\n")[0].splitlines()[1:]]
-    yield "| | scenarios | frames | contacts | missed / invented |"
-    yield "| --- | ---: | ---: | ---: | ---: |"
-    for label, scenarios, frames, contacts, missed, invented in rows:
-        yield f"| `{label}` | {scenarios} | {int(frames):,} | {int(contacts):,} | {int(missed):,} / {int(invented):,} |"
-
-
 @functools.cache
 def ingredients(root, label, scene="comb"):
     """Of tracked particles with some part changed: median time, per cent of exact frames, and missed contacts."""
@@ -546,6 +536,12 @@ SENTENCES = [
         digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("tt", "rigid-ww", "rigid-mv"))),
     ("docs/peers.md", "FCL is the best of Debian's engines. It takes {} times as long as `certified` on `ww`, {} times on `mv` and {} times "
      "on `tt`", lambda root: (digits(times(root, scenario)) for scenario in ("ww", "mv", "tt-distance"))),
+    ("docs/peers.md", "in each of the {} frames without one, RSS in {}. RSS bottom-up also misses {} of the {} contacts that {} other "
+     "deforming scenarios have in the frames in which it was asked, and {} of {} on `spider`", oriented_bottom_up),
+    ("docs/peers.md", "Bullet invents contacts on the slivers ({} and {}), on `spider` ({}), on `twist` ({}) and on `touch` ({})",
+     lambda root: invented(root, "bullet-gimpact", "sliver-3", "sliver-6", "spider", "twist", "touch")),
+    ("docs/peers.md", "ODE invents {} on `touch`", lambda root: invented(root, "ode", "touch")),
+    ("docs/peers.md", "is wrong in {} of {} scenarios; {} of the {} contacts that it invents are on `shell`", convex),
     ("docs/impact.md", "Of {:,} approaches of all ten scenes in steps of 1, 3, 10 and 30 frames {} pass with continuous steps, {} surfaces "
      "intersect at any time looked at, and {} flights are unproven", lambda root: (
         sums(root, "continuous", "approaches", "passes_through", "intersecting", "floor_unproven"))),
