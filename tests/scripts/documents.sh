@@ -45,8 +45,8 @@ cp "$root/docs/findings.md" "$work/docs"
 
 # A newer record takes the place of what was there before; its table says when its sources have changed.
 record=$work/results/records/0123456789/dynamics
-newest=$(cd "$root/harness/scripts" && /usr/bin/python3 -B -c "from pathlib import Path; import documents
-print(documents.file_of(Path('$work'), documents.DYNAMICS))")
+newest=$(cd "$root/harness/scripts" && /usr/bin/python3 -B -c "from pathlib import Path; from tables import impacts, records
+print(records.file_of(Path('$work'), impacts.DYNAMICS))")
 mkdir -p "$record"
 cp "$newest" "$record"
 describe() { # HASH ENDED

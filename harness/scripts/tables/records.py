@@ -68,3 +68,7 @@ def wrong_verdicts(row):
 def is_right(row):
     """Whether no verdict was wrong, and each distance, where distances were asked for, is exact."""
     return not wrong_verdicts(row) and not float(row["exact_rate"] or 1) < 1
+
+
+def figure(root, source, what):
+    return f"![{what}](../{file_of(root, source).relative_to(root)})"

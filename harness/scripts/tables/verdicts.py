@@ -2,7 +2,7 @@
 import functools
 import re
 
-from records import file_of
+from tables.records import file_of
 
 VERDICTS = "verdicts/verdicts.txt"
 LARGE_VERDICTS = "verdicts-large/verdicts.txt"

@@ -2,9 +2,9 @@
 has it."""
 import functools
 
-from engine_tables import ENGINES, fastest, fastest_right_of, is_engine, time_of
-from number_text import digits
-from records import csv_rows, is_right
+from tables.engines import ENGINES, fastest, fastest_right_of, is_engine, time_of
+from tables.number_text import digits
+from tables.records import csv_rows, is_right
 
 TUNE = "tune/summary.csv"
 ORIENTED = ("fcl-obb", "fcl-rss", "fcl-obbrss", "fcl-kios")

@@ -2,8 +2,8 @@
 found."""
 import functools
 
-from number_text import digits, span
-from records import csv_rows
+from tables.number_text import digits, span
+from tables.records import csv_rows
 
 SPEED = "impact-speed/summary.csv"
 FCL_SPEED = "impact-speed/fcl-summary.csv"

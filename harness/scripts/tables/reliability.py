@@ -5,7 +5,7 @@ import functools
 import json
 from collections import defaultdict, namedtuple
 
-from records import csv_rows, newest, study_of
+from tables.records import csv_rows, newest, study_of
 
 RELIABILITY = "reference/reliability.csv"
 MUTATION = "reference/mutation.csv"
@@ -187,3 +187,8 @@ GATHERED = {
     "mutation": Gathered(mutation_table, records_of_mutation),
     "soak": Gathered(soak_table, records_of_soak),
 }
+
+
+def failures(root, check):
+    tried, failed, _ = checks(root)["random scenarios: " + check]
+    return (failed, tried)

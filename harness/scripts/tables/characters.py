@@ -2,8 +2,8 @@
 import functools
 import re
 
-from number_text import digits, span
-from records import by_method, csv_rows, file_of
+from tables.number_text import digits, span
+from tables.records import by_method, csv_rows, file_of
 
 CHARACTERS = "character-speed/characters.md"
 PARTS = "rigid-parts/summary.csv"

@@ -1,4 +1,5 @@
 """Numbers as documents show them."""
+import re
 
 
 def plain(value):
@@ -38,3 +39,7 @@ def power(value):
     """Two digits and a power of ten: 4.4e-5."""
     digits_of, exponent = f"{value:.1e}".split("e")
     return f"{digits_of}e{int(exponent)}"
+
+
+def numbers_of(text):
+    return [float(number) if "." in number else int(number) for number in re.findall(r"\d+(?:\.\d+)?", text)]

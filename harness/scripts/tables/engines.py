@@ -2,8 +2,8 @@
 frames."""
 import functools
 
-from number_text import digits
-from records import csv_rows, is_right, wrong_verdicts
+from tables.number_text import digits
+from tables.records import csv_rows, is_right, wrong_verdicts
 
 ENGINES = "engines/summary.csv"
 PEERS = ENGINES + "#peers"

@@ -1,0 +1,96 @@
+"""Every built-in pair of bodies, from the full bench: times and accuracy of exact methods and of particles."""
+import functools
+
+from tables.number_text import digits, exact_text, span
+from tables.records import csv_rows, figure, is_right
+
+BENCH = "bench/summary.csv"
+# Of these, only contact is asked, or no body deforms and nobody has to refit (the table of engines has some); crowd is no pair.
+NOT_AMONG_PAIRS = ("tt", "ww-contact", "mv-contact", "tt-distance", "rigid-ww", "rigid-mv", "flat", "sliver-3", "sliver-6",
+                   "still", "touch", "crowd")
+# Where the paper's method with eight particles answers, too.
+LETTER_SCENES = ("mv", "tw", "twist", "vv", "ww", "ww-1k", "ww-10k", "ww-100k", "ww-1m", "ww-10m")
+CHARACTER_SCENES = ("hands", "jumper-20k", "jumper-80k", "jumper-330k", "jumper-near-20k", "jumper-near-330k")
+
+
+@functools.cache
+def pairs(root):
+    """The finished rows of the full bench, hot and charged for everything, by scenario and label; of rows alike, that
+    of the most frames."""
+    found = {}
+    for row in csv_rows(root, BENCH):
+        if (row["status"], row["cache"], row["accounting"]) == ("ok", "hot", "charged"):
+            key = (row["scenario"], row["label"])
+            if key not in found or frames_of(row) > frames_of(found[key]):
+                found[key] = row
+    return found
+
+
+def frames_of(row):
+    return int(row["frames"]) * int(row["stride"])
+
+
+def accuracy(row):
+    """The share of exact answers, missed contacts, and all contacts."""
+    return tuple(float(row[key]) for key in ("exact_rate", "missed", "contacts"))
+
+
+def accuracy_text(row):
+    exact, missed, contacts = accuracy(row)
+    return f"{exact_text(exact)}, {missed:.3g} of {contacts:.3g}"
+
+
+def pairs_table(root):
+    yield ("| scene | processes, frames | `certified`, median in µs | best FCL | `aabb-tree` | `particle:n=8` | exact, missed | "
+           "`particle-paper:n=8` | exact, missed |")
+    yield "| --- | ---: | ---: | ---: | ---: | ---: | --- | ---: | --- |"
+    rows = pairs(root)
+    for scenario in sorted({scenario for scenario, _ in rows} - set(NOT_AMONG_PAIRS)):
+        ours = rows[scenario, "certified"]
+        median = float(ours["total_ns_median"])
+        cells = [scenario, f"{ours['replicates']}, {int(ours['frames']):,}", digits(median / 1e3), digits(float(ours["ratio_best"]))]
+        for label in ("aabb-tree", "particle:n=8", "particle-paper:n=8"):
+            row = rows.get((scenario, label))
+            cells.append(digits(float(row["total_ns_median"]) / median) if row else "–")
+            if label != "aabb-tree":
+                cells.append(accuracy_text(row) if row else "refused")
+        yield f"| {' | '.join(cells)} |"
+    yield ""
+    yield figure(root, "bench/size-time.svg", "Time of a query of two letters W over their number of triangles")
+
+
+def exactness(root, scenario, label):
+    """Frames of the full bench, and per cent of them that are exact."""
+    row = pairs(root)[scenario, label]
+    return (int(row["frames"]), 100 * accuracy(row)[0])
+
+
+def tracked(root, scenario):
+    """What the tracked particles did in the full bench: per cent of exact frames, missed contacts, and all contacts."""
+    exact, missed, contacts = accuracy(pairs(root)[scenario, "particle:n=8"])
+    return (100 * exact, missed, contacts)
+
+
+def tracked_on_letters(root):
+    """The least and the largest percentage of exact frames, missed contacts, and all contacts."""
+    exact, missed, contacts = zip(*(tracked(root, scenario) for scenario in LETTER_SCENES))
+    return (*span(exact), sum(missed), sum(contacts))
+
+
+def wrong_rows(root):
+    """Of the rows of the full bench by exact methods, ours and others': how many, and how many have a wrong answer."""
+    rows = [row for row in csv_rows(root, BENCH) if row["status"] == "ok" and not row["method"].startswith("particle")]
+    wrong = [row for row in rows if not is_right(row)]
+    return (len(rows), len(wrong))
+
+
+def times_of_eight(root, scenarios):
+    """The time of the certified query over that of the paper's method with eight particles."""
+    return [float(pairs(root)[scenario, "certified"]["total_ns_median"])
+            / float(pairs(root)[scenario, "particle-paper:n=8"]["total_ns_median"]) for scenario in scenarios]
+
+
+def slower_eights(root):
+    """On how many scenes of the table the paper's method takes longer than the exact query, and of how many."""
+    scenarios = {scenario for scenario, label in pairs(root) if label == "particle-paper:n=8"} - set(NOT_AMONG_PAIRS)
+    return (sum(time < 1 for time in times_of_eight(root, scenarios)), len(scenarios))
