@@ -111,7 +111,6 @@ class Mutant:
         self.before = squeeze(source[from_line:to_line])
         self.after = squeeze(source[from_line:start] + text + source[end:to_line])
         self.killed_by = None
-
         self.last_line = line + source.count("\n", start, end)
 
     def name(self):
