@@ -355,9 +355,11 @@ class Bench:
         self.tried, self.killed = collections.Counter(), collections.Counter()  # by test, and by file and test
         # In the place of the harness's own: that one replaces the functions that the leak check does.
         self.uncounted = f"{work}/uncounted.o"
-        words, directory = compile_command(self.build, HEAP_COUNT)
-        subprocess.run(words + ["-D__SANITIZE_ADDRESS__", "-c", "-o", self.uncounted,
-                                f"{self.source_dir}/{HEAP_COUNT}"], cwd=directory, check=True)
+        self.compile_file(HEAP_COUNT, self.uncounted, ["-D__SANITIZE_ADDRESS__"])
+
+    def compile_file(self, path, made, flags):
+        words, directory = compile_command(self.build, path)
+        subprocess.run(words + [*flags, "-c", "-o", made, f"{self.source_dir}/{path}"], cwd=directory, check=True)
 
     def compile(self, path, source, folder):
         """The object of a file with this text; None where it does not compile."""
@@ -370,14 +372,13 @@ class Bench:
         return made if result.returncode == 0 else None
 
     def link(self, test, made, folder, flags=()):
-        """The program of a test with these objects, words in a list, in the place of its own."""
-        words, directory = self.links[test]
-        words = list(words)
-        at = words.index("-o")
+        """The program of a test with these objects, a list, in the place of its own."""
         program = f"{folder}/{program_of(test)}"
         if os.path.exists(program):
             return program
-        words[at + 1] = program
+        words, directory = self.links[test]
+        words = list(words)
+        words[words.index("-o") + 1] = program
         first = next(k for k, w in enumerate(words) if w.endswith(".o"))
         words[first:first] = QUICK_LINK + [*flags, *made]
         if test not in COUNTS_HEAP:
@@ -420,9 +421,7 @@ class Bench:
         folder = tempfile.mkdtemp(dir=self.work)
         made = [f"{folder}/{os.path.basename(path)[:-2]}.o" for path in paths]
         for path, name in zip(paths, made):
-            words, directory = compile_command(self.build, path)
-            subprocess.run(words + ["-O0", "--coverage", "-c", "-o", name, f"{self.source_dir}/{path}"],
-                           cwd=directory, check=True)
+            self.compile_file(path, name, ["-O0", "--coverage"])
         for test in self.tests:
             if self.run(self.link(test, made, folder, ["--coverage"]), test, folder, 600) != 0:
                 sys.exit(f"mutate: {test} fails when its lines are counted")
@@ -472,7 +471,7 @@ def code_of(made):
 
 
 def lines_of(made):
-    """How often each line of a file was executed, by number, which starts from 0 again then; {}: not counted."""
+    """How often each line of a file was executed since the last call, by number; {}: not counted."""
     counts = collections.Counter()
     name = made[:-2]
     if os.path.exists(f"{name}.gcda"):

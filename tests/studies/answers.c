@@ -3,11 +3,11 @@
    second hash covers their counts (core/method/method.h), that is, how they got there. Every
    compiler, optimisation, number of threads and repetition must give the same bits.
 
-   answers [--few] [--scenario NAME] [--method NAME] [--runs N] [--threads K] [--check FILE]
+   answers [--few] [--scenario NAME] [--runs N] [--threads K] [--check FILE]
    prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
    compares with FILE; exit status 1 where a line differs. --threads: K jobs run at once, each
    a scenario and a method of its own. --few: 24 small scenarios, and their lines, in a second
-   instead of half a minute. --scenario, --method: of one only. If you change a method on
+   instead of half a minute. --scenario: of this one. If you change a method on
    purpose, renew tests/answers.txt from the whole output once make determinism agrees on it. */
 #include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
@@ -156,11 +156,12 @@ static bool is_among(const char *const *names, int count, const char *name)
 
 typedef struct options {
     uint64_t runs, threads;
-    const char *check, *scenario, *method; /* NULL: nothing to compare with; all */
-    bool few;
+    const char *check;        /* NULL: nothing to compare with */
+    const char *const *names; /* of scenarios; NULL: all */
+    int count;
 } options;
 
-/* Loads the scenarios one by one; each makes a job for every method that is asked. */
+/* Loads the scenarios one by one; each makes a job for every method. */
 static mote_status load(const mote_catalog *catalog, const options *o,
                         mote_scenario **scenarios, work *w)
 {
@@ -169,23 +170,16 @@ static mote_status load(const mote_catalog *catalog, const options *o,
     for (size_t k = 0; k < catalog->count && status == MOTE_OK; ++k) {
         const char *name = catalog->entries[k].name;
         if (catalog->entries[k].several || is_among(large, LARGE, name) ||
-            (o->few && !is_among(few, FEW, name)) ||
-            (o->scenario && strcmp(o->scenario, name) != 0))
+            (o->names && !is_among(o->names, o->count, name)))
             continue;
         status = mote_scenario_load(name, &scenarios[loaded]);
-        for (int m = 0; m < METHODS && status == MOTE_OK; ++m) {
-            if (!o->method || strcmp(o->method, methods[m]) == 0)
-                w->jobs[w->count++] =
-                    (job){.scenario = scenarios[loaded], .method = methods[m]};
-        }
+        for (int m = 0; m < METHODS && status == MOTE_OK; ++m)
+            w->jobs[w->count++] = (job){.scenario = scenarios[loaded], .method = methods[m]};
         loaded += status == MOTE_OK;
     }
-    if (status == MOTE_OK && o->scenario && loaded != 1)
-        status = mote_fail(MOTE_EINVAL, "--scenario %s: there is none of this name here",
-                           o->scenario);
-    else if (status == MOTE_OK && o->few && !o->scenario && loaded != FEW)
-        status =
-            mote_fail(MOTE_EINVAL, "%zu of the %d small scenarios are built in", loaded, FEW);
+    if (status == MOTE_OK && o->names && loaded != (size_t)o->count)
+        status = mote_fail(MOTE_EINVAL, "%zu of the %d scenarios asked for are here", loaded,
+                           o->count);
     return status;
 }
 
@@ -229,18 +223,24 @@ static bool compare(const char *text, const char *expected, bool all)
     return same;
 }
 
+static void ask(options *o, const char *const *names, int count)
+{
+    o->names = names;
+    o->count = count;
+}
+
 static bool read_options(int argc, char **argv, options *o)
 {
-    o->few = argc > 1 && strcmp(argv[1], "--few") == 0;
-    const int first = o->few ? 2 : 1;
+    const bool asks_few = argc > 1 && strcmp(argv[1], "--few") == 0;
+    const int first = asks_few ? 2 : 1;
+    if (asks_few)
+        ask(o, few, FEW);
     bool good = (argc - first) % 2 == 0;
     for (int i = first; i + 1 < argc && good; i += 2) {
         if (strcmp(argv[i], "--check") == 0)
             o->check = argv[i + 1];
         else if (strcmp(argv[i], "--scenario") == 0)
-            o->scenario = argv[i + 1];
-        else if (strcmp(argv[i], "--method") == 0)
-            good = is_among(methods, METHODS, o->method = argv[i + 1]);
+            ask(o, (const char *const *)&argv[i + 1], 1);
         else if (strcmp(argv[i], "--runs") == 0)
             good = mote_read_unsigned(argv[i + 1], 1, 1000000, &o->runs);
         else
@@ -249,8 +249,8 @@ static bool read_options(int argc, char **argv, options *o)
     }
     if (!good)
         (void)fprintf(stderr,
-                      "usage: answers [--few] [--scenario NAME] [--method NAME] [--runs N] "
-                      "[--threads K] [--check FILE]\n");
+                      "usage: answers [--few] [--scenario NAME] [--runs N] [--threads K] "
+                      "[--check FILE]\n");
     return good;
 }
 
@@ -271,7 +271,7 @@ static mote_status run(const options *o, work *w, bool *same)
         if (text && k == 0)
             (void)fputs(o->check ? strstr(text, "\nall ") + 1 : text, stdout);
         if (text && first)
-            *same = compare(text, first, !o->few && !o->scenario && !o->method) && *same;
+            *same = compare(text, first, !o->names) && *same;
         if (!first)
             first = text;
         else
