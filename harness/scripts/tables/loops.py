@@ -20,7 +20,12 @@ def loops(root, methods, others=False):
             if method in methods and (scene in PAPER_SCENES) != others]
 
 
-PARTICLES = ["particle-paper:n=%d,law=log" % n for n in (1, 2, 3, 4, 5, 8, 16)]
+def paper(n, law="log"):
+    return f"particle-paper:n={n},law={law}"
+
+
+def particles(*counts):
+    return [paper(n) for n in counts]
 
 
 def dynamics_table(root):
@@ -29,7 +34,7 @@ def dynamics_table(root):
     yield "| --- " * 10 + "|"
     for scene in ("tt", "mv", "ww", "twist", "comb"):
         cells = []
-        for method in PARTICLES + ["particle:n=8", "certified"]:
+        for method in particles(1, 2, 3, 4, 5, 8, 16) + ["particle:n=8", "certified"]:
             row = rows[scene, method]
             share, low, high = (float(row[key]) for key in ("share", "low", "high"))
             cells.append(f"{percent(share)} ({percent(low)}-{percent(high)})" if share else f"0 (< {percent(high)})")
@@ -41,17 +46,13 @@ def dynamics_table(root):
 
 
 def pass_through(root, scene, n, law="log"):
-    return percent(float(dynamics(root)[scene, f"particle-paper:n={n},law={law}"]["share"]))
+    return percent(float(dynamics(root)[scene, paper(n, law)]["share"]))
 
 
 def missed_steps(root, method, *scenes):
     rows = [dynamics(root)[scene, method] for scene in scenes]
     missed, touching = (sum(int(row[key]) for row in rows) for key in ("missed_steps", "contact_steps"))
     return f"{missed} of {touching:,}"
-
-
-def particles(*counts):
-    return [f"particle-paper:n={n},law=log" for n in counts]
 
 
 def missed_shares(root, counts, others=False):

@@ -1,4 +1,4 @@
-"""Numbers as documents show them."""
+"""Numbers as documents show them, and as texts have them."""
 import re
 
 

@@ -54,6 +54,12 @@ def checks(root):
     return found
 
 
+def failures(root, check):
+    """How many of the checks of one kind on random scenarios failed, and of how many."""
+    tried, failed, _ = checks(root)["random scenarios: " + check]
+    return (failed, tried)
+
+
 def checks_table(root):
     yield "| what was checked | tried | failed | measured |"
     yield "| --- | ---: | ---: | --- |"
@@ -187,8 +193,3 @@ GATHERED = {
     "mutation": Gathered(mutation_table, records_of_mutation),
     "soak": Gathered(soak_table, records_of_soak),
 }
-
-
-def failures(root, check):
-    tried, failed, _ = checks(root)["random scenarios: " + check]
-    return (failed, tried)
