@@ -27,6 +27,7 @@ from tables.impacts import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED,
 from tables.loops import dynamics_table
 from tables.pairs import BENCH, pairs_table
 from tables.python_speed import PYTHON, python_table
+from tables.races import RACES, races_figure
 from tables.readers import READERS, readers_table
 from tables.records import csv_rows, has_changed, record_of, study_of
 from tables.reference import SUMMARY, reference_table
@@ -82,6 +83,7 @@ TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CR
           CHARACTERS: characters_table,
           TUNE: tune_table, PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table,
           AUTO: auto_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
+          RACES: races_figure,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
 
 
@@ -104,8 +106,9 @@ def rewritten(root, document):
     """The text of a document, and what it should be."""
     text = new = document.read_text()
     for source, begin, end in reversed(list(blocks(document, text))):
-        lines = heading(root, source, document, text[begin:end]) + list(TABLES[source](root))
-        new = new[:begin] + "\n" + "\n".join(lines) + "\n\n" + new[end:]
+        results = os.path.relpath(root / "results", document.parent)
+        table = [line.replace("](results/", f"]({results}/") for line in TABLES[source](root)]
+        new = new[:begin] + "\n" + "\n".join(heading(root, source, document, text[begin:end]) + table) + "\n\n" + new[end:]
     return text, new
 
 
