@@ -2,7 +2,8 @@
 from math import comb
 from statistics import median
 
-from tables.records import csv_rows, figure, stored
+from tables.number_text import span
+from tables.records import csv_rows, figure, result_link
 
 RACES = "gate/races.csv"
 QUIET = ("idle", "compiler")
@@ -15,7 +16,7 @@ def races(root, place=QUIET):
 def races_figure(root):
     yield figure(root, "gate/power.svg", "Share of races that call a planted slowdown slower, over its size")
     yield ""
-    yield f"[The figure as a table]({stored(root, 'gate/power.md')}), with exact binomial intervals."
+    yield result_link(root, "gate/power.md", "The figure as a table") + ", with exact binomial intervals."
 
 
 def unchanged(root, place=QUIET):
@@ -56,5 +57,4 @@ def seconds(root):
     kinds = {}
     for row in races(root):
         kinds.setdefault((row["place"], row["plant"], row["per_cent"]), []).append(float(row["seconds"]))
-    medians = [median(times) for times in kinds.values()]
-    return (min(medians), max(medians))
+    return span([median(times) for times in kinds.values()])

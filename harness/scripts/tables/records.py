@@ -70,10 +70,10 @@ def is_right(row):
     return not wrong_verdicts(row) and not float(row["exact_rate"] or 1) < 1
 
 
-def stored(root, source):
-    """Where a file is stored, from the root; documents.py makes a link of it from the folder of the document."""
-    return file_of(root, source).relative_to(root)
+def result_link(root, source, text):
+    """Names the file from the root; documents.py has it start at the folder of the document."""
+    return f"[{text}]({file_of(root, source).relative_to(root)})"
 
 
 def figure(root, source, what):
-    return f"![{what}]({stored(root, source)})"
+    return "!" + result_link(root, source, what)
