@@ -19,6 +19,7 @@
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
+#   make counts [OUT=DIR]                            what a certified query looks at: boxes, leaves, faces
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make characters [MODELS=DIR]                     which animated files are read as characters
 #   make character-speed [PROFILE=quick|full] [OUT=] characters: certified, aabb-tree, FCL
@@ -208,6 +209,16 @@ ingredients: build
 
 ablation: build
 	@harness/scripts/ablation.sh $(MOTE) $(PROFILE) $(call out,ablation)
+
+# Of the letters of several sizes, frames in or near contact.
+.PHONY: counts
+counts: OUT_OF_COUNTS = $(call out,counts)
+counts: COUNT = $(MOTE) run --method certified --replicates 1 --stride 1 --no-summary --out $(OUT_OF_COUNTS)
+counts: build deps-test
+	@$(COUNT) ww mv twist ww-1m >/dev/null
+	@$(COUNT) ww-1k ww-10k --frames 1100-1300 >/dev/null
+	@$(COUNT) ww-100k --frames 100-300 >/dev/null
+	@harness/scripts/counts.py $(OUT_OF_COUNTS)
 
 certify: program-certify
 	@mkdir -p $(OUT)
