@@ -20,6 +20,7 @@ from tables.ablation import ABLATION, INGREDIENTS, ablation_table, ingredients_f
 from tables.bodies import BODIES, CROWDS, bodies_table, crowd_table
 from tables.characters import CHARACTERS, PARTS, characters_table, parts_table
 from tables.claims import CLAIMS, claims_table
+from tables.counts import RANKED_COUNTS, SIZED_COUNTS, ranked_counts_table, sized_counts_table
 from tables.engines import ENGINES, PEERS, engines_table, peers_tables
 from tables.extremes import EXTREMES, extremes_table
 from tables.impacts import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, fcl_table, impact_table, long_steps_table,
@@ -83,7 +84,7 @@ TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CR
           CHARACTERS: characters_table,
           TUNE: tune_table, PARTS: parts_table, CLAIMS: claims_table, EXTREMES: extremes_table, RATIOS: ratios_table,
           AUTO: auto_table, ABLATION: ablation_table, INGREDIENTS: ingredients_figure, READERS: readers_table, PYTHON: python_table,
-          RACES: races_figure,
+          RACES: races_figure, RANKED_COUNTS: ranked_counts_table, SIZED_COUNTS: sized_counts_table,
           **{name: gathered.table for name, gathered in GATHERED.items()}}
 
 

@@ -2,6 +2,7 @@
 from tables.ablation import launches
 from tables.bodies import LETTERS, gains, megabytes, step
 from tables.characters import characters, exact_to_parts
+from tables.counts import costliest_frames
 from tables.engines import is_tree, ode_to_fcl, times
 from tables.impacts import continuous_to_sampled, long_questions, sums
 from tables.loops import loops, missed_shares, missed_steps, particles, pass_through, query_times, worst_reports
@@ -122,6 +123,9 @@ SENTENCES = [
      "{:.0f} µs, FCL {:,.0f} to {:,.0f} µs", lambda root: (
         *query_times(root, "particle:n=8", "certified"), *query_times(root, *particles(5)),
         *(round(time, -2) for time in query_times(root, "fcl-aabb:seed=previous,queue=64")))),
+    ("docs/certified.md", "{} of the {} frames of `ww` with the most pairs of leaves touch. They lie between frames {} and {}, in which the "
+     "letters are far from each other. They deform {:.1f} times as many blocks as the middle fifth, but leave {:.0f} times as many rows and "
+     "{:.0f} times as many pairs of leaves undecided", costliest_frames),
     ("docs/certified.md", "On an idle machine a step of these letters takes {:.1f} ms", lambda root: (
         step(root, LETTERS[4], "certified") / 1e6,)),
     ("docs/findings.md", "takes at most {:.0f} MB with `certified` and {:.1f} GB with `refit=every`; with 10,000 letters "
