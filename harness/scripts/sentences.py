@@ -1,13 +1,13 @@
 """Sentences of documents that have numbers in them, and the stored results that these come from."""
 from tables.ablation import launches
-from tables.bodies import LETTERS, gains, megabytes, step
+from tables.bodies import LETTERS, asked, bounds_of_body, gains, megabytes, step
 from tables.characters import characters, exact_to_parts
 from tables.counts import costliest_frames
 from tables.engines import is_tree, ode_to_fcl, times
-from tables.impacts import continuous_to_sampled, long_questions, sums
+from tables.impacts import continuous_to_sampled, energy_drifts, logged_impacts, long_questions, sums
 from tables.loops import loops, missed_shares, missed_steps, particles, pass_through, query_times, worst_reports
 from tables.number_text import digits, power, span
-from tables.pairs import (CHARACTER_SCENES, LETTER_SCENES, exactness, slower_eights, times_of_eight, tracked,
+from tables.pairs import (CHARACTER_SCENES, LETTER_SCENES, evicted, exactness, slower_eights, tail, times_of_eight, tracked,
                           tracked_on_letters, wrong_rows)
 from tables.races import QUIET, at_least, at_most, found_slowdowns, planted, seconds, unchanged
 from tables.readers import animated_files, readers_total
@@ -28,6 +28,9 @@ SENTENCES = [
         1 / times_of_particles(root, "ww"), 1 / times_of_particles(root, "mv"))),
     ("README.md", "(FCL or ODE) takes {} to {} times as long, by the medians of one run", lambda root: (
         map(digits, span([times(root, scenario) for scenario in ("ww", "mv", "ww-contact", "mv-contact")])))),
+    ("README.md", "On rigid bodies, asked for contacts, the best engine takes {} to {} times as long by the median and {} to {} by the mean", lambda root: (
+        digits(value) for key in ("median", "mean")
+        for value in span([times(root, scenario, key) for scenario in ("tt", "rigid-ww", "rigid-mv")]))),
     ("README.md", "ODE takes {:.2f} to {:.2f} of its time for contacts", lambda root: (
         span([ode_to_fcl(root, scenario) for scenario in ("ww-contact", "mv-contact")]))),
     ("docs/peers.md", "ODE is the best of the others, in {:.2f} (`mv`) to {:.2f} (`ww`) of FCL's time. It takes {} times as long as "
@@ -53,6 +56,13 @@ SENTENCES = [
     ("docs/impact.md", "Of {:,} approaches of all ten scenes in steps of 1, 3, 10 and 30 frames {} pass with continuous steps, {} surfaces "
      "intersect at any time looked at, and {} flights are unproven", lambda root: (
         sums(root, "continuous", "approaches", "passes_through", "intersecting", "floor_unproven"))),
+    ("docs/impact.md", "Of {:,} intervals, {} impacts were missed or found after another, {} are false, {} brackets are too wide.", lambda root: (
+        failures(root, "an impact missed", "random paths")[1],
+        *(failures(root, check, "random paths")[0] for check in ("an impact missed", "a false impact", "a bracket above 1e-6")))),
+    ("docs/impact.md", "In the last {:,} of them, {:,} have an impact; of {:,} that graze, {} were said to be grazing and {} undecided",
+     logged_impacts),
+    ("docs/impact.md", "by {} of itself in the median of these scenes and steps, by {} at most", lambda root: (
+        map(power, energy_drifts(root)))),
     ("docs/impact.md", "Sampled at the ends of steps of 30 frames, {1} of {0:,} pass and {2:,} intersect", lambda root: (
         sums(root, "sampled", "approaches", "passes_through", "intersecting", least=30))),
     ("docs/impact.md", "finding every impact frame by frame takes {:.1f} times as long as a sample each frame, and in steps of ten "
@@ -100,6 +110,9 @@ SENTENCES = [
      animated_files),
     ("docs/benchmarking.md", "`make readers` reads each of the {} files", lambda root: readers_total(root)[:1]),
     ("docs/benchmarking.md", "mote reads {} as meshes and refuses {}", lambda root: readers_total(root)[1:]),
+    ("docs/findings.md", "{:.1f} times its median in one of twenty frames of `flat`", lambda root: (tail(root, "flat"),)),
+    ("docs/findings.md", "{:.1f} (`ww`), {:.1f} (`mv`) and {:.0f} times (`tt`, asked for contact) as long as hot", lambda root: (
+        evicted(root, scenario) for scenario in ("ww", "mv", "tt"))),
     ("docs/findings.md", "passes through the other in {} % of 1,000 approaches; with 3 particles it is {} %",
      lambda root: (pass_through(root, "ww", 5), pass_through(root, "ww", 3))),
     ("docs/findings.md", "for {:.1f} (`mv`) to {:.1f} times (`ww`) the time of the particles", lambda root: (
@@ -128,6 +141,13 @@ SENTENCES = [
      "{:.0f} times as many pairs of leaves undecided", costliest_frames),
     ("docs/certified.md", "On an idle machine a step of these letters takes {:.1f} ms", lambda root: (
         step(root, LETTERS[4], "certified") / 1e6,)),
+    ("docs/certified.md", "(with the trees as they are split now, {:,.0f} of the letters)", lambda root: asked(root, 4)[:1]),
+    ("docs/certified.md", "Of {1:,} queries {0} were beyond 1e-12 L and {2} lower bounds above the truth, and {4} of {5:,} checks of a vertex in a "
+     "deformed box failed", lambda root: (
+        value for check in ("certified beyond 1e-12 L", "a lower bound above the truth", "a vertex outside of a box")
+        for value in failures(root, check, "random skins"))),
+    ("docs/benchmarking.md", "certified trees ({:.2f} µs a body)", lambda root: (bounds_of_body(root),)),
+    ("docs/benchmarking.md", "leave out {:.0f} % of the pairs of the densest box of 1,000 letters", lambda root: asked(root, 4)[1:]),
     ("docs/findings.md", "takes at most {:.0f} MB with `certified` and {:.1f} GB with `refit=every`; with 10,000 letters "
      "of 4 shapes `certified` takes {:.0f} MB at 4 near pairs a body", lambda root: (
         max(megabytes(root, scene) for scene in LETTERS.values()),
@@ -140,6 +160,7 @@ SENTENCES = [
         *reversed(failures(root, "certified beyond 1e-12 L of the truth")),
         failures(root, "a lower bound above the truth")[0])),
     ("docs/findings.md", "The answer is wrong by {} L, and", lambda root: (power(furthest_off(root)[0]),)),
+    ("docs/architecture.md", "and {} L in the worst of the random scenarios", lambda root: (power(furthest_off(root)[1]),)),
     ("docs/findings.md", "In another such scene it lies {} L below, the most in these scenarios", lambda root: (
         power(furthest_off(root)[1]),)),
     ("docs/findings.md", "a lower bound {} L below the distance, and [one distance](#how-far-an-exact-answer-can-be-trusted) too "

@@ -1,6 +1,7 @@
 """Steps of many bodies, from a run of `make bodies`."""
 import functools
 import json
+import statistics
 
 from tables.number_text import digits
 from tables.records import by_method, csv_rows, file_of
@@ -53,6 +54,19 @@ def crowd_table(root):
         scene = f"crowd-200-{density}"
         cells = step_cells([float(rows[scene, method]["active_total_ns_mean"]) for method in methods])
         yield f"| {density} | {rows[scene, 'certified']['frames']} | " + " | ".join(cells) + " |"
+
+
+def asked(root, density):
+    """How many pairs of 1,000 letters are asked about in a step, and per cent of the near ones that are left out."""
+    row = bodies(root)[LETTERS[density], "certified"]
+    pairs = float(row["near_pairs_a_body"])
+    return pairs * int(row["bodies"]), 100 * (1 - pairs / density)
+
+
+def bounds_of_body(root):
+    """The median over all scenes: microseconds that the box of a body takes in a step."""
+    return statistics.median(float(row["bounds_ns"]) / int(row["bodies"]) / 1e3 for (_, method), row in bodies(root).items()
+                             if method == "certified")
 
 
 def megabytes(root, scene, method="certified"):

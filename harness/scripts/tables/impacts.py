@@ -1,13 +1,15 @@
 """Tables of docs/impact.md: impacts between frames by several methods, and steps of the closed loop in which they are
 found."""
 import functools
+import statistics
 
 from tables.number_text import digits, span
-from tables.records import csv_rows
+from tables.records import csv_rows, file_of
 
 SPEED = "impact-speed/summary.csv"
 FCL_SPEED = "impact-speed/fcl-summary.csv"
 DYNAMICS = "dynamics/dynamics.csv"
+IMPACTS = "impacts/log.txt"
 LONG_STEPS = DYNAMICS + "#long-steps"
 SHORT_STEPS = DYNAMICS + "#short-steps"
 SAMPLED = ("impact-sampled:samples=3", "impact-sampled", "impact-sampled:samples=30")
@@ -115,6 +117,19 @@ def sums(root, within, *keys, least=1):
     """Of all scenes in steps of at least so many frames, the sums of some columns."""
     rows = [row for (_, step), row in steps(root, within).items() if step >= least]
     return [sum(int(row[key]) for row in rows) for key in keys]
+
+
+def energy_drifts(root):
+    """Of the loops in which impacts are found within steps: the median and the largest change of energy, relative to it."""
+    drifts = [float(row["energy_drift"]) for row in steps(root, "continuous").values()]
+    return (statistics.median(drifts), max(drifts))
+
+
+def logged_impacts(root):
+    """Of the last part of `make impacts`: all intervals, those with an impact, those that graze, and of these how many were
+    said to graze and how many were undecided."""
+    lines = {line[:10].strip(): line[10:].split() for line in file_of(root, IMPACTS).read_text().splitlines()[1:]}
+    return [int(value) for value in (*lines["all"][:2], lines["grazing"][0], *lines["grazing"][6:8])]
 
 
 def continuous_to_sampled(root, scene, step):

@@ -26,6 +26,18 @@ def pairs(root):
     return found
 
 
+def evicted(root, scenario):
+    """The median of the certified query where caches are evicted before each frame, over that where they are hot."""
+    row = next(row for row in csv_rows(root, BENCH) if (row["scenario"], row["cache"], row["label"]) == (scenario, "evict", "certified"))
+    return float(row["total_ns_median"]) / float(pairs(root)[scenario, "certified"]["total_ns_median"])
+
+
+def tail(root, scenario):
+    """The 95th percentile of the certified query over its median."""
+    row = pairs(root)[scenario, "certified"]
+    return float(row["total_ns_p95"]) / float(row["total_ns_median"])
+
+
 def frames_of(row):
     return int(row["frames"]) * int(row["stride"])
 

@@ -54,9 +54,9 @@ def checks(root):
     return found
 
 
-def failures(root, check):
-    """How many of the checks of one kind on random scenarios failed, and of how many."""
-    tried, failed, _ = checks(root)["random scenarios: " + check]
+def failures(root, check, of="random scenarios"):
+    """How many of the checks of one kind failed, and of how many."""
+    tried, failed, _ = checks(root)[f"{of}: {check}"]
     return (failed, tried)
 
 
