@@ -7,6 +7,7 @@ from tables.engines import is_tree, ode_to_fcl, times
 from tables.impacts import continuous_to_sampled, energy_drifts, logged_impacts, long_questions, sums
 from tables.loops import loops, missed_shares, missed_steps, particles, pass_through, query_times, worst_reports
 from tables.number_text import digits, power, span
+from tables.oracle import against_cgal
 from tables.pairs import (CHARACTER_SCENES, LETTER_SCENES, evicted, exactness, slower_eights, tail, times_of_eight, tracked,
                           tracked_on_letters, wrong_rows)
 from tables.races import QUIET, at_least, at_most, found_slowdowns, planted, seconds, unchanged
@@ -49,6 +50,8 @@ SENTENCES = [
      "on `tt`", lambda root: (digits(times(root, scenario)) for scenario in ("ww", "mv", "tt-distance"))),
     ("docs/peers.md", "in each of the {} frames without one, RSS in {}. RSS bottom-up also misses {} of the {} contacts that {} other "
      "deforming scenarios have in the frames in which it was asked, and {} of {} on `spider`", oriented_bottom_up),
+    ("docs/peers.md", "{:,} random pairs of triangles, most of them hard, with errors of at most {} of the extent, and {:,} whole frames of "
+     "`mv`, `tt-distance` and `ww`, at most {} L", against_cgal),
     ("docs/peers.md", "Bullet invents contacts on the slivers ({} and {}), on `spider` ({}), on `twist` ({}) and on `touch` ({})",
      lambda root: invented(root, "bullet-gimpact", "sliver-3", "sliver-6", "spider", "twist", "touch")),
     ("docs/peers.md", "ODE invents {} on `touch`", lambda root: invented(root, "ode", "touch")),
