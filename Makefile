@@ -4,7 +4,9 @@
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, draw, show the best rows
 #   make sweep [OUT=DIR]                              time and memory over triangles, 1k to 1M
 #   make test                                         release tests, then ASan and UBSan
-#   make test-page                                    the report's page, in headless Chromium
+#   make page                                         the viewer of reports, bundled by npm
+#   make test-page                                   the report's page, in headless Chromium
+
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make record [OUT=DIR]                             keep a run's summary in results/records

@@ -57,7 +57,8 @@ if(NOT MOTE_CORE_ONLY)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets PATTERN "*.py" EXCLUDE)
   install(FILES datasets/defects.md DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets)
   install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/mote
-          PATTERN node_modules EXCLUDE PATTERN "*.sh" EXCLUDE PATTERN "package*.json" EXCLUDE)
+          PATTERN node_modules EXCLUDE PATTERN "*.sh" EXCLUDE PATTERN "package*.json" EXCLUDE
+          PATTERN ".npmrc" EXCLUDE)
   install(FILES ${CMAKE_BINARY_DIR}/page/replay.js OPTIONAL
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/page)
   install(FILES docs/mote.bash RENAME mote

@@ -22,3 +22,7 @@ done < "$stage/all" > "$stage/list"
 echo share/mote/installed.txt >> "$stage/list"
 cmake --install "$build" --prefix "$prefix"
 cp "$stage/list" "$list"
+# The system's list of libraries, where it looks into this folder: programs then find libmote at once.
+if [ -z "${DESTDIR:-}" ] && ldconfig -N -v 2> /dev/null | grep -q "^$prefix/lib:"; then
+    ldconfig || echo "install: run ldconfig as root, so that programs find the library" >&2
+fi
