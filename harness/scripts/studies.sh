@@ -9,11 +9,11 @@
 #   PROGRAM=FILE    the program, built from this tree
 #
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
-# keeps of them, or by a comparison with its commit; texts, *.md, are left out), and all of its parts are in it
-# and passed. It stays fresh where C files alone have changed and PROGRAM is still the recorded one to the last
-# byte; studies that run programs of tests/ go by the files alone. The record is written after each part, and parts that passed are not run again after an
-# interruption, unless the sources have changed since: those in WORK/STUDY, or, where WORK has fewer (on
-# another machine, say), those of the newest record.
+# keeps of them, or by a comparison with its commit; texts, *.md, and comments of C files are left out), and all
+# of its parts are in it and passed. It stays fresh where C files alone have changed and PROGRAM is still the
+# recorded one to the last byte; studies that run programs of tests/ go by the files alone. The record is written
+# after each part, and parts that passed are not run again after an interruption, unless the sources have changed
+# since: those in WORK/STUDY, or, where WORK has fewer (on another machine, say), those of the newest record.
 set -euo pipefail
 table=$1 records=$2 work=$3 list=${4:-}
 only=${ONLY:-} hours=${HOURS:-} busy=${BUSY:-} jobs=${JOBS:-1} file_of_program=${PROGRAM:-} began=$(date +%s)
@@ -33,7 +33,8 @@ commit=$(git rev-parse --short=10 HEAD)
 program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
 no_texts=':!*.md'
 declare -A lists # of sources, by @NAME
-compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
+c_file='\.(c|h|cpp|hpp)$'
+compiled="^(core|baselines|datasets|harness)/.*$c_file"
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
@@ -66,15 +67,34 @@ has_this_program() { # STUDY.JSON CHANGED
     [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ " $sources" != *" tests"* ]] &&
         ! grep -qvE "$compiled" <<<"$2"
 }
+# A C file without its comments.
+code() {
+    gcc -fpreprocessed -dD -E -P -x c++ -
+}
+has_same_code() { # FILE COMMIT
+    local old new
+    [[ $1 =~ $c_file ]] && old=$(git show "$2:$1" | code) && new=$(code <"$1") && [ "$old" = "$new" ]
+} 2>/dev/null
+# Those of some files whose code has changed since a commit.
+with_other_code() { # COMMIT, the files on standard input
+    local file
+    while read -r file; do
+        has_same_code "$file" "$1" || echo "$file"
+    done
+}
 # What the record exercised and is not so any more; nothing if all of it is.
 change_since() { # STUDY.JSON
     local old changed
     ! has_these_sources "$1" || return 0
-    old=$(value "$1" commit)
+    old=$(value "$1" same_commit)
+    [ -n "$old" ] || old=$(value "$1" commit)
     # shellcheck disable=SC2086 # a list of paths
     if ! changed=$(git diff --name-only "$old" -- $sources "$no_texts" 2>/dev/null); then
         echo "other sources than at $old"
-    elif [ -n "$changed" ] && ! has_this_program "$1" "$changed"; then
+        return
+    fi
+    changed=$(with_other_code "$old" <<<"$changed")
+    if [ -n "$changed" ] && ! has_this_program "$1" "$changed"; then
         echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
     fi
 }
@@ -123,7 +143,7 @@ next_study() {
     while IFS=$'\t' read -r name place minutes parts sources files command; do
         [[ $name = "" || $name = \#* ]] && continue
         if [[ $name = @* ]]; then
-            lists[$name]=$place
+            lists[$name]=$(paths_of "$place") || exit
             continue
         fi
         if [[ ! $place =~ ^(alone|beside)$ || ! $minutes =~ ^[0-9]+$ || ! $parts =~ ^[0-9]+$ || -z $command ]]; then
@@ -337,14 +357,15 @@ run_parts() {
     *) exit "$ended" ;;
     esac
 }
-# In fresh records whose files have changed: that the program of these files is the same.
+# In fresh records whose files have changed: that the program of these files is the same, or their code.
 note_same_program() {
     local file
     while next_study; do
         file=$(newest)
         [ -z "$(staleness)" ] || continue
         has_these_sources "$file" ||
-            sed -i -e '/^ *"same_program"/d' -e "s/^\( *\)\"sources_hash\".*/&\n\1\"same_program\": \"$hash\",/" "$file"
+            sed -i -e '/^ *"same_/d' \
+                -e "s/^\( *\)\"sources_hash\".*/&\n\1\"same_program\": \"$hash\",\n\1\"same_commit\": \"$commit\",/" "$file"
     done
 }
 run_study() {

@@ -130,6 +130,23 @@ tells "table.tsv: sums: there is no line @other"
 mv table.tsv.kept table.tsv
 calls ""
 
+step="other comments in a C file make nothing stale; code within a line of them does"
+printf '// 1 as well\n1 /* was\n2 */\n\n' >core/b.c
+git commit -qam "b.c is 1 with comments"
+ONLY=sums run 0
+calls "sums 1,sums 2,sums 3,"
+printf '1 // one\n' >core/b.c
+git commit -qam "another comment"
+ONLY=sums run 0 list
+printf '1 // one\n2\n' >core/b.c
+ONLY=sums run 1 list
+says "core/b.c changed since"
+git checkout -q core/b.c
+ONLY=sums run 0
+calls ""
+head=$(git rev-parse --short=10 HEAD)
+grep -q "\"same_commit\": \"$head\"" records/*/sums/study.json || fail "the record does not say for which commit it holds"
+
 step="a part that would end too late is not begun"
 echo 2 >plots/c.gp
 git commit -qam third
@@ -220,11 +237,15 @@ ONLY=program PROGRAM=$work/program run 0 list
 ONLY="program tested" PROGRAM=$work/program run 0
 calls "tested 1,"
 ONLY=program run 0 list # as the record says now
+echo '4 /* four */' >core/b.c
+ONLY=program run 0 list # compared with the commit of that note
+git checkout -q core/b.c
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["same_program"]' "$record" || fail "$record"
 echo 2 >harness/scripts/s.sh
-git commit -qam seventh
+echo 1 >harness/scripts/t.sh
+git add . && git commit -qm seventh
 ONLY=program PROGRAM=$work/program run 1 list
-says "core/b.c and 1 more changed since"
+says "harness/scripts/s.sh and 1 more changed since"
 git revert -n HEAD && git commit -qm eighth
 ONLY=program run 0 list
 echo 5 >core/b.c
