@@ -41,7 +41,8 @@ void mote_parameters_default(const mote_parameter *table, size_t count, double *
 
 /* Reads "key=value,key=value" into values, which are already filled. "" is allowed. MOTE_EINVAL
    with a text that names the key or value and lists what would be right: unknown key, a key
-   twice, not a number, out of range, not a choice. values are unchanged on failure. */
+   twice, not a number, out of range, not a choice. values are unchanged on failure. Numbers are
+   read by strtod, so call it in the C locale. */
 mote_status mote_parameters_parse(const mote_parameter *table, size_t count, const char *text,
                                   double *values);
 

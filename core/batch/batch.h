@@ -17,11 +17,12 @@ extern "C" {
 typedef struct mote_batch mote_batch;
 
 /* For two bodies whose fields are known (certificate.h). meshes and fields are borrowed; two
-   bodies of the same mesh and field share a tree. L is the larger of the two rest L. Samples
-   are copied. A body whose field is NULL never deforms. MOTE_EINVAL: slack or a sample out of
-   range, a field whose positions are given, a skin of another mesh; MOTE_ENOMEM. Whether linear
-   modes belong to the mesh is not checked. Cost as mote_certificate_create. The caller destroys
-   *batch; one thread at a time may use it. */
+   bodies of the same mesh and field share a tree where neither has samples. L is the larger of
+   the two rest L. Samples are copied. A body whose field is NULL never deforms. MOTE_EINVAL:
+   slack or a sample out of range, a field whose positions are given, and as
+   mote_certificate_create; MOTE_ENOMEM. Whether linear modes belong to the mesh is not checked.
+   Cost as mote_certificate_create. The caller destroys *batch; one thread at a time may use it.
+ */
 mote_status mote_batch_create(const mote_mesh *const meshes[2],
                               const mote_field *const fields[2],
                               const mote_batch_options *options, mote_batch **batch);

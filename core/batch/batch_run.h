@@ -18,8 +18,8 @@ typedef struct mote_batch_run {
     size_t threads;   /* 1 .. 256; they are started and joined in the call */
     double tolerance; /* of a contact question, absolute; negative: the distance is asked */
     /* Written for each frame; each may be NULL. */
-    double *distance; /* [frames], of the witnesses: exact unless stopped by slack, budget or a
-                         known contact */
+    double *distance; /* [frames], of the witnesses: exact where the distance is asked and
+                         neither slack nor budget ended the query, else an upper bound */
     double *lower;    /* [frames], proven: 0 <= lower <= distance */
     double *witness;  /* [frames][2][3], world points on the two surfaces */
     int8_t *contact;  /* [frames]: 1: distance <= tolerance, 0: not so, -1: not decided within
@@ -29,9 +29,10 @@ typedef struct mote_batch_run {
 
 /* How both kinds of batches are made. Every member is 8 bytes long. */
 typedef struct mote_batch_options {
-    double slack;    /* >= 0: a query stops when upper - lower <= slack * L */
+    double slack;    /* >= 0, finite: a query stops when upper - lower <= slack * L */
     uint64_t budget; /* box tests after which a query stops and returns its bracket */
-    /* Likely shapes of each body (mote_body.samples), of which poses are not read. */
+    /* Likely shapes of each body (mote_body.samples), at most 64, of which poses are not read.
+     */
     size_t sample_count[2];
     mote_controls samples[2];
 } mote_batch_options;

@@ -65,6 +65,9 @@ static mote_status read_pose(const mote_controls *controls, size_t frame, double
         return MOTE_OK;
     double row[4][4] = {{0}, {0}, {0}, {0, 0, 0, 1}};
     const size_t rows = controls->pose_rows;
+    if (rows != 3 && rows != 4)
+        return mote_fail(MOTE_EINVAL,
+                         "pose: %zu rows; give 3, or 4 of which the last is 0 0 0 1", rows);
     memcpy(row, controls->pose + frame * controls->pose_step, rows * sizeof row[0]);
     for (size_t i = 0; i < rows; ++i) {
         for (size_t j = 0; j < 4; ++j) {

@@ -21,9 +21,10 @@ typedef struct mote_crowd mote_crowd;
 /* Makes bodies[body_count], each of the shape shape_of[i] < shape_count, which is meshes[shape]
    with fields[shape] (NULL: it never deforms); these are borrowed, the rest is copied. options
    NULL: tolerance 0, distances, one thread. MOTE_EINVAL: no shape or body, a shape that does
-   not exist, a skin of another mesh, a field whose positions are given, options out of range;
-   MOTE_ENOMEM. Cost as mote_scene_create. The caller destroys *crowd; one thread at a time may
-   use it. A child process made by fork must not use it: its threads are not there. */
+   not exist, a field whose positions are given, options out of range,
+   and as mote_certificate_create; MOTE_ENOMEM. Cost as mote_scene_create. The caller destroys
+   *crowd; one thread at a time may use it. A child process made by fork must not use it if it
+   has two threads or more: they are not there. */
 mote_status mote_crowd_create(const mote_mesh *const *meshes, const mote_field *const *fields,
                               size_t shape_count, const uint32_t *shape_of, size_t body_count,
                               const mote_crowd_options *options, mote_crowd **crowd);

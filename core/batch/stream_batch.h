@@ -15,7 +15,8 @@ typedef struct mote_batch_positions {
     const void *data;
     size_t stride;     /* bytes from a vertex to the next one */
     size_t single;     /* 1: float, 0: double */
-    size_t frame_step; /* bytes from a frame to the next one; 0: the body never moves */
+    size_t frame_step; /* bytes from a frame to the next one, a multiple of a number's size,
+                          which is not checked; 0: the body never moves */
 } mote_batch_positions;
 
 typedef struct mote_stream_batch mote_stream_batch;

@@ -41,8 +41,9 @@ typedef struct mote_weights_single {
     uint32_t padded;
 } mote_weights_single;
 
-/* At most this many basis functions: with the padding, their numbers fit in 16 bits. A sparse
-   kind that brings bounds of its own may have more. */
+/* At most this many basis functions: with the padding, their numbers fit in 16 bits. A kind
+   with bounds of its own may have up to MOTE_FIELD_MAX_BOUNDED if it is sparse, or has both
+   displacement functions. */
 #define MOTE_FIELD_MAX 65528
 #define MOTE_FIELD_MAX_BOUNDED (1u << 20)
 
@@ -143,15 +144,17 @@ mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, do
                                     mote_field **field);
 
 /* Linear modes: modes[m * vertex_count + i] is the displacement of vertex i per unit of weight
-   m, copied. MOTE_EINVAL where count is 0, count * 3 is above MOTE_FIELD_MAX, or a number is
+   m, copied. vertex_count is that of the mesh of each body that has the field, which is not
+   checked. MOTE_EINVAL where count is 0, count * 3 is above MOTE_FIELD_MAX, or a number is
    not finite; MOTE_ENOMEM. */
 mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
                                     uint32_t vertex_count, mote_field **field);
 
 /* For a new kind: a zeroed field with kind, count, padded, most (= count) and bytes
    set; kind->destroy frees it with free(). A sparse kind lowers most. MOTE_EINVAL: count is
-   above MOTE_FIELD_MAX, or above MOTE_FIELD_SUMMED for a kind that is not sparse and leaves
-   displacement or displacement_single to the sum over basis(). MOTE_ENOMEM. */
+   above MOTE_FIELD_MAX, or MOTE_FIELD_MAX_BOUNDED where that holds, or above MOTE_FIELD_SUMMED
+   for a kind that is not sparse and leaves displacement or displacement_single to the sum over
+   basis(). MOTE_ENOMEM. */
 mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
                                 mote_field **field);
 

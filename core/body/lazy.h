@@ -51,10 +51,11 @@ void mote_lazy_free(mote_lazy *lazy);
 
 /* Starts a frame: forgets all positions. state is borrowed until the next call. With use_given,
    or where the body's positions are given, they are read from state->vertices, which must not
-   be NULL then. Constant time. */
+   be NULL then. Constant time; O(J) in single precision. */
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given);
 
-/* The same with positions read from points, which are borrowed until the next call. */
+/* The same with positions read from points, which are borrowed until the next call. Not in
+   single precision. */
 void mote_lazy_begin_points(mote_lazy *lazy, const mote_positions *points);
 
 /* The slow path of mote_lazy_position: evaluates and remembers (or, out of memory, only

@@ -25,8 +25,10 @@ typedef struct mote_mass {
    component inside another one and wound the other way is a cavity. MOTE_EINVAL with the
    reason: an open mesh, inconsistent winding at an edge, no volume (flat, or components that
    cancel), a bad density, a mesh so large or small that a result is not a positive finite
-   number; MOTE_ENOMEM. Rounding errors: about 1e-15 of the moments of the tetrahedra about
-   the middle of the mesh's box. Cost O(t log t). */
+   number; MOTE_ENUMERIC, where the principal axes of such a mesh cannot be found; MOTE_ENOMEM.
+   Not by two threads at a time, since GSL's error handler is off meanwhile. Rounding errors:
+   about 1e-15 of the moments of the tetrahedra about the middle of the mesh's box. Cost O(t log
+   t). */
 mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *mass);
 
 #pragma GCC visibility pop

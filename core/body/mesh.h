@@ -43,10 +43,11 @@ typedef struct mote_mesh {
 
 /* Makes a mesh from xyz (3 * vertex_count doubles) and indices (3 * triangle_count), both
    copied. MOTE_EINVAL, with a text that names the vertex, face or edge: no triangle, 2^31
-   vertices or more, a coordinate that is not finite, an index out of range, a face with two
-   equal indices, an edge with more than two faces, a vertex in no face, no extent (L = 0),
-   an L below the normal numbers or above the largest. MOTE_ENOMEM. Faces of zero area are
-   allowed, and so are faces wound differently. Cost O(v + t). The caller destroys *mesh. */
+   vertices or 2^31 / 3 triangles or more, a coordinate that is not finite, an index out of
+   range, a face with two equal indices, an edge with more than two faces, a vertex in no face,
+   no extent (L = 0), an L below the normal numbers or above the largest. MOTE_ENOMEM. Faces of
+   zero area are allowed, and so are faces wound differently. Cost O(v + t). The caller destroys
+   *mesh. */
 mote_status mote_mesh_create(const double *xyz, size_t vertex_count, const uint32_t *indices,
                              size_t triangle_count, mote_mesh **mesh);
 

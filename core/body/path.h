@@ -27,7 +27,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/* A body that spins turns by less than this in a piece, in radians. */
+/* A body that spins turns by at most this in a piece, in radians. */
 #define MOTE_PATH_SPIN_MAX 1e6
 
 typedef struct mote_path_piece {

@@ -47,10 +47,12 @@ typedef struct mote_certificate_options {
 mote_certificate_options mote_default_certificate_options(double length);
 
 /* Builds both trees: O(t log t), about 0.5 s a million triangles, the same bits with any number
-   of threads. MOTE_EINVAL for a skin of another mesh; MOTE_ENOMEM, also where a second thread
-   cannot be started. options are not checked; change the defaults only within their ranges. The
-   bodies are borrowed; a change of their fields or rest meshes needs a new certificate. The
-   caller destroys *certificate; one thread at a time may use it. */
+   of threads. MOTE_EUNSUPPORTED for a body of which only positions are given; MOTE_EINVAL for a
+   skin of a mesh with another number of vertices or another middle of its box; MOTE_ENOMEM,
+   also where a second thread cannot be started. options are not checked; change the defaults
+   only within their ranges. The bodies are borrowed; a change of their fields or rest meshes
+   needs a new certificate. The caller destroys *certificate; one thread at a time may use it.
+ */
 mote_status mote_certificate_create(const mote_body *const body[2],
                                     const mote_certificate_options *options,
                                     mote_certificate **certificate);
@@ -69,11 +71,11 @@ typedef struct mote_certificate_answer {
     mote_counters counters;
 } mote_certificate_answer;
 
-/* Answers one frame. first (may be NULL): vertices of a pair of faces to start from, where the
-   caller knows a good one; it changes the time only. enough: a contact question's tolerance, so
-   that the query ends when distance <= enough or lower > enough; negative for the distance. A
-   distance whose square no double holds, from 1e154 on, is infinite, and has no witnesses. No
-   allocation. */
+/* Answers one frame, whose numbers must be finite; they are not checked. first (may be NULL):
+   vertices of a pair of faces to start from, where the caller knows a good one; it changes the
+   time only. enough: a contact question's tolerance, so that the query ends when distance <=
+   enough or lower > enough; negative for the distance. A distance whose square no double holds,
+   from 1e154 on, is infinite, and has no witnesses. No allocation. */
 void mote_certificate_query(mote_certificate *certificate, const mote_frame *frame,
                             const uint32_t (*first)[3], double enough,
                             mote_certificate_answer *answer);

@@ -84,8 +84,9 @@ typedef struct mote_cert_tree_options {
     bool linear_fits; /* false: g = 0 (to measure what the fits bring) */
 } mote_cert_tree_options;
 
-/* Builds the tree of a body, which is borrowed. MOTE_EINVAL for a skin of another mesh;
-   MOTE_ENOMEM. Cost O(t log t + v J log t). */
+/* Builds the tree of a body, which is borrowed. MOTE_EUNSUPPORTED where only its positions
+   are given; MOTE_EINVAL for a skin of another mesh; MOTE_ENOMEM. Cost O(t log t + v J log t).
+ */
 mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_options *options,
                                   mote_cert_tree **tree);
 

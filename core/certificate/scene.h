@@ -22,7 +22,7 @@ typedef struct mote_scene mote_scene;
 
 typedef struct mote_scene_options {
     mote_ask ask;
-    double tolerance; /* absolute, >= 0: contact is distance <= tolerance */
+    double tolerance; /* absolute, >= 0, finite: contact is distance <= tolerance */
     uint32_t threads; /* 1 .. 256, which share the bounds and pairs among them */
 } mote_scene_options;
 
@@ -55,9 +55,11 @@ typedef struct mote_scene_pair {
 } mote_scene_pair;
 
 /* Builds a tree for each of shape_count shapes (borrowed). shape_of[body_count]: the shape
-   of each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist, a skin of
-   another mesh, options out of range; MOTE_ENOMEM. The caller destroys *scene; one thread at a
-   time may use it. Cost: about 0.5 s a million triangles of shapes. */
+   of each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist,
+   options out of range, and as mote_certificate_create; MOTE_EUNSUPPORTED, as that;
+   MOTE_ENOMEM. The caller destroys *scene; one thread at a time may use it, and with two
+   threads or more no child process made by fork. Cost: about 0.5 s a million triangles of
+   shapes. */
 mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_count,
                               const uint32_t *shape_of, uint32_t body_count,
                               const mote_scene_options *options, mote_scene **scene);
@@ -73,7 +75,8 @@ double mote_scene_length(const mote_scene *scene);
 
 /* Boxes of all bodies, bounds[body_count], from the roots of their trees deformed by states
    [body_count]: each contains all vertices of its body as mote_body_position gives them.
-   MOTE_EINVAL, naming the body, where a pose or a weight is not finite. No allocation. About
+   MOTE_EINVAL, naming the body, where a pose or a weight is not finite, or so large that
+   the box is not. No allocation. About
    0.2 us a body. */
 mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
                               mote_scene_box *bounds);
@@ -95,9 +98,10 @@ mote_status mote_scene_sift(mote_scene *scene, const mote_body_state *states, do
                             const uint32_t (**kept)[2], size_t *kept_count);
 
 /* Answers for pairs[count]: i < j in each, ascending by i, then j, each once, else MOTE_EINVAL.
-   Pairs that were also in the last call continue from their state; the state of others is
-   dropped. Answers are the same bits for any number of threads. Allocates only when there are
-   more pairs than ever before; on MOTE_ENOMEM all states are kept. */
+   The states' numbers must be finite; mote_scene_bounds checks them. Pairs that were also in
+   the last call continue from their state; the state of others is dropped. Answers are the same
+   bits for any number of threads. Allocates only when there are more pairs than ever before; on
+   MOTE_ENOMEM all states are kept. */
 mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
                              const uint32_t (*pairs)[2], size_t count);
 

@@ -21,8 +21,8 @@ typedef struct mote_impact_search mote_impact_search;
 
 typedef struct mote_impact_options {
     double length;       /* > 0: L of the pair */
-    double resolution;   /* > 0: width of the bracket, as a part of the time 0 .. 1 */
-    uint32_t pieces;     /* >= 1: the most pieces that a path will have */
+    double resolution;   /* 1e-12 .. 1: width of the bracket, as a part of the time 0 .. 1 */
+    uint32_t pieces;     /* 1 .. 2^20: the most pieces that a path will have */
     uint32_t iterations; /* >= 1: certified queries after which the search gives up */
     uint32_t patience;   /* steps by speeds alone before the first sweep by directions, which
                             costs as much as ten of them; UINT32_MAX: no sweeps */
@@ -82,11 +82,12 @@ typedef struct mote_impact_found {
    MOTE_EINVAL, naming the body and the piece: an interval that is not within 0 .. 1 or that is
    reversed, a tolerance below 0 or not finite, paths without pieces, with more than the options
    say, or of different numbers; a number that is not finite; a piece that begins elsewhere than
-   the one before ends; quaternions that may pass near 0; a spin above MOTE_PATH_SPIN_MAX;
-   weights of morph targets that are not in the body's axes;
-   positions where the body has a field, or none where it has not; positions that cannot be
-   read, or that are 10^18 L from the origin. No allocation. Of a path of positions every vertex
-   of each frame is read, and the frames that the search comes to are boxed. */
+   the one before ends; quaternions that may pass near 0; a piece that spins from a
+   rotation that is not of length 1, or by more than MOTE_PATH_SPIN_MAX; weights of morph
+   targets that are not in the body's axes; positions where the body has a field, or none where
+   it has not; positions that cannot be read, or that are 10^18 L from the origin. Only the
+   pieces within [begin, end] are checked. No allocation. Of a path of positions every vertex of
+   each frame is read, and the frames that the search comes to are boxed. */
 mote_status mote_impact_query(mote_impact_search *search, const mote_impact_question *question,
                               mote_impact_found *found);
 

@@ -3,6 +3,7 @@
 #include "core/body/path_place.h"
 #include "core/certificate/pair_list.h"
 #include "core/impact/impact_swept.h"
+#include "core/stream/stream_boxes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -71,16 +72,18 @@ static mote_status make_search(mote_impact_scene *s, uint32_t a, uint32_t b)
    two bodies of one shape. */
 static mote_status make_searches(mote_impact_scene *s)
 {
+    bool *has_body = calloc(s->shape_count, sizeof *has_body); /* one before body i */
+    if (!has_body)
+        return mote_fail(MOTE_ENOMEM, "no memory for %u shapes", s->shape_count);
     mote_status status = MOTE_OK;
     for (uint32_t i = 0; i < s->body_count; ++i) {
         for (uint32_t a = 0; a < s->shape_count && status == MOTE_OK; ++a) {
-            bool other = false;
-            for (uint32_t j = 0; j < i && !other; ++j)
-                other = s->shape_of[j] == a;
-            if (other)
+            if (has_body[a])
                 status = make_search(s, a, s->shape_of[i]);
         }
+        has_body[s->shape_of[i]] = true;
     }
+    free(has_body);
     return status;
 }
 
@@ -149,6 +152,23 @@ static mote_status check_times(double begin, double end)
                      begin, end);
 }
 
+/* A box around piece k of the path of body i. */
+static mote_status box_of_piece(const mote_impact_scene *s, const mote_path *path, uint32_t i,
+                                uint32_t k, mote_scene_box *box)
+{
+    const uint32_t shape = s->shape_of[i];
+    mote_status status = MOTE_OK;
+    if (path->positions) {
+        for (uint32_t frame = k; frame <= k + 1 && status == MOTE_OK; ++frame)
+            status = mote_stream_check(&path->positions[frame], (int)i);
+        if (status == MOTE_OK)
+            mote_impact_swept_lines(path, s->shapes[shape].mesh->vertex_count, k, box);
+    } else {
+        mote_impact_swept_box(s->groups[shape], &s->shapes[shape], path, k, box);
+    }
+    return status;
+}
+
 static mote_status box_of(const mote_impact_scene *s, const mote_path *paths, uint32_t i,
                           double begin, double end, mote_scene_box *box)
 {
@@ -158,8 +178,7 @@ static mote_status box_of(const mote_impact_scene *s, const mote_path *paths, ui
                          "body %u: its path has %u pieces; give all bodies the same number, 1 "
                          "to %u",
                          i, path->count, s->options.pieces);
-    const uint32_t shape = s->shape_of[i];
-    const bool given = mote_body_is_given(&s->shapes[shape]);
+    const bool given = mote_body_is_given(&s->shapes[s->shape_of[i]]);
     if (given != (path->positions != NULL))
         return mote_fail(MOTE_EINVAL, "body %u: its path is to be one of %s, as its shape says",
                          i, given ? "positions" : "pieces");
@@ -168,10 +187,9 @@ static mote_status box_of(const mote_impact_scene *s, const mote_path *paths, ui
     mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t k = mote_path_place(path, begin).piece; k <= last; ++k) {
         mote_scene_box part;
-        if (given)
-            mote_impact_swept_lines(path, s->shapes[shape].mesh->vertex_count, k, &part);
-        else
-            mote_impact_swept_box(s->groups[shape], &s->shapes[shape], path, k, &part);
+        const mote_status status = box_of_piece(s, path, i, k, &part);
+        if (status != MOTE_OK)
+            return status;
         const mote_vec3 size = mote_sub(part.high, part.low);
         if (!isfinite(size.x + size.y + size.z))
             return mote_fail(MOTE_EINVAL,

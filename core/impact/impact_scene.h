@@ -36,7 +36,8 @@ size_t mote_impact_scene_bytes(const mote_impact_scene *scene);
 /* Boxes of the bodies' paths [body_count] over [begin, end], boxes[body_count]: each contains
    all of its body at all of these times, as mote_path_state and mote_body_position give it.
    MOTE_EINVAL, naming the body: a path without pieces, with more than the options say or with
-   another number than the others, a number in it that is not finite, times out of order. No
+   another number than the others, pieces where its shape asks for positions or the reverse, a
+   number in it that is not finite, positions that cannot be read, times out of order. No
    allocation. Cost O(J) a body, piece and group of vertices, of which there are at most 64; of
    a path of positions O(vertices) a piece. */
 mote_status mote_impact_scene_boxes(const mote_impact_scene *scene, const mote_path *paths,
@@ -66,9 +67,9 @@ typedef struct mote_impact_scene_found {
 } mote_impact_scene_found;
 
 /* The earliest impact of the scene; of impacts that begin at once, that of the lowest bodies.
-   An outcome of an only pair that grazes or stays undecided counts like an impact: it ends what
-   is proven. MOTE_EINVAL as mote_impact_scene_boxes and mote_impact_query. Allocates only when
-   more pairs are near than ever before; MOTE_ENOMEM. */
+   A pair that only grazes, or stays undecided, counts like an impact: it ends what is proven.
+   MOTE_EINVAL as mote_impact_scene_boxes and mote_impact_query. Allocates only when more pairs
+   are near than ever before; MOTE_ENOMEM. */
 mote_status mote_impact_scene_query(mote_impact_scene *scene,
                                     const mote_impact_scene_question *question,
                                     mote_impact_scene_found *found);

@@ -10,8 +10,9 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/* The mesh is first simplified to at most this many triangles, since HACD's time grows faster
-   than the square of their number (letters: 0.3 s at 800, 5 s at 1,380). */
+/* The mesh is first simplified to about this many triangles, since HACD's time grows faster
+   than the square of their number (letters: 0.3 s at 800, 5 s at 1,380). Where the shape does
+   not allow so few, up to twice as many are taken. */
 #define MOTE_PARTS_TRIANGLES 800
 
 /* The processor time that HACD has for a mesh: fifteen times what it takes for letters, but
@@ -34,8 +35,9 @@ typedef struct mote_parts {
    HACD 3.24 frees memory twice on some meshes with faces of hardly any area, and takes minutes
    for others. So it runs in a child process (fork), whose crash or delay does no harm: what it
    does not answer within MOTE_PARTS_SECONDS is split by our own means, by the planes of the
-   faces, and counted in without_hacd. Callers with signal handlers, threads, or children of
-   their own notice nothing; where SIGCHLD is ignored, a crash counts as a delay.
+   faces, and counted in without_hacd. Callers with threads, or children of their own, notice
+   nothing but a SIGCHLD; one that waits for any child may be told of ours, and what was left
+   is then split by planes. Where SIGCHLD is ignored, a crash counts as a delay.
 
    positions are [vertex_count] and finite; NULL means the mesh's rest positions. Each part has
    at least one vertex. Deterministic, but for a mesh on which HACD crashes or needs about the

@@ -34,9 +34,10 @@ typedef struct mote_stream_options {
 mote_stream_options mote_default_stream_options(double length);
 
 /* Builds a tree for each of two meshes: O(t log t), about 0.5 s a million triangles. The
-   bodies' meshes and samples are borrowed; their fields are not used and may be NULL.
-   MOTE_EINVAL: threads out of range; MOTE_ENOMEM. The caller destroys *stream; one thread at a
-   time may use it. */
+   bodies' meshes are borrowed. Their fields are used for samples only, during this call, and
+   may be NULL where sample_count is 0. MOTE_EINVAL: threads out of range; MOTE_ENOMEM. The
+   caller destroys *stream; one thread at a time may use it. With two threads or more, a child
+   process made by fork must not use it. */
 mote_status mote_stream_create(const mote_body *const body[2],
                                const mote_stream_options *options, mote_stream **stream);
 
@@ -55,15 +56,18 @@ typedef struct mote_stream_frame {
 /* Answers one frame. enough: a contact question's tolerance, so that the query ends when
    distance <= enough or lower > enough; negative for the distance. The answer is that of
    mote_certificate_query: the same bits on every instruction set and for any number of threads.
-   MOTE_EINVAL, naming body and vertex: no positions, a stride that is too small or not a
-   multiple of the numbers' size, a position that is not finite (looked for in every frame), or
-   positions 10^18 times as far apart as the larger of L and the distance. No allocation. */
+   MOTE_EINVAL, naming the body: no positions, a stride that is too small or not a multiple of
+   the numbers' size, data that is not aligned to them; a position that is not finite (looked
+   for in every frame but an unchanged one), naming the vertex; positions 10^18 times as far
+   apart as the larger of L and the distance; bodies so far apart that the square of their
+   distance is no double. No allocation. */
 mote_status mote_stream_query(mote_stream *stream, const mote_stream_frame *frame,
                               double enough, mote_certificate_answer *answer);
 
 /* An order of a mesh's vertices in which the pass reads memory from start to end:
    order[vertex_count], the old number of each new vertex. Vertices in this order halve a
-   query's time at a million triangles. MOTE_ENOMEM. Cost O(t log t). */
+   query's time at a million triangles. The body's field may be NULL where it has no
+   samples. MOTE_ENOMEM. Cost O(t log t). */
 mote_status mote_stream_order(const mote_body *body, uint32_t *order);
 
 #pragma GCC visibility pop

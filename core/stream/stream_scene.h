@@ -19,10 +19,11 @@ extern "C" {
 
 typedef struct mote_stream_scene mote_stream_scene;
 
-/* Builds a tree for each of shape_count shapes; their meshes and samples are borrowed, their
-   fields are not used. shape_of[body_count]: the shape of each body, copied. MOTE_EINVAL: no
-   shape or body, a shape that does not exist, options out of range; MOTE_ENOMEM. The caller
-   destroys *scene; one thread at a time may use it. Cost: about 0.5 s a million triangles of
+/* Builds a tree for each of shape_count shapes; their meshes are borrowed, their fields
+   are used as by mote_stream_create. shape_of[body_count]: the shape of each body, copied.
+   MOTE_EINVAL: no shape or body, a shape that does not exist, options out of range;
+   MOTE_ENOMEM. The caller destroys *scene; one thread at a time may use it, and with two
+   threads or more no child process made by fork. Cost: about 0.5 s a million triangles of
    shapes. */
 mote_status mote_stream_scene_create(const mote_body *const *shapes, uint32_t shape_count,
                                      const uint32_t *shape_of, uint32_t body_count,
@@ -46,8 +47,9 @@ mote_status mote_stream_scene_bounds(mote_stream_scene *scene, const mote_positi
 /* Answers for pairs[count] of the last bounds: i < j in each, ascending by i, then j, each
    once, else MOTE_EINVAL, also where two bodies are 10^18 times as far apart as the larger of L
    and their distance. Pairs that were also in the last call continue from their state; the
-   state of others is dropped. Answers are the same bits for any number of threads. Allocates
-   only when there are more pairs than ever before. */
+   state of others is dropped. MOTE_EINVAL also before the first bounds. Answers are the same
+   bits for any number of threads. Allocates only when there are more pairs than ever before;
+   MOTE_ENOMEM. */
 mote_status mote_stream_scene_query(mote_stream_scene *scene, const uint32_t (*pairs)[2],
                                     size_t count);
 

@@ -105,7 +105,8 @@ static mote_status make_letter(char letter, uint64_t triangles, const char *orde
 }
 
 const mote_option mote_options_letter[] = {
-    {"triangles", "COUNT", "about how many triangles the mesh has; no default"},
+    {"triangles", "COUNT",
+     "how many triangles the mesh has: an even number, 400 to 20,000,000; no default"},
     {"-o", "FILE", "the OBJ file to write; no default"},
     {"order", "letter|leaf|random",
      "of the vertices: as a scenario's letter has them; as the method stream reads them; "

@@ -43,7 +43,8 @@ const mote_option mote_options_run[] = {
     {"until-ci", "2%",
      "add replicates until every interval is within this share of its median (default: none "
      "are added)"},
-    {"budget", "SECONDS", "--until-ci stops after this time (default: 600)"},
+    {"budget", "SECONDS",
+     "--until-ci stops then, and so does a cell of more than two bodies (default: 600)"},
     {"progress", "SECONDS",
      "if stderr is not a terminal: seconds between two lines of progress (default: 0, a line "
      "after each cell)"},

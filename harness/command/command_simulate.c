@@ -58,24 +58,43 @@ static uint32_t watched(const request *wish, uint32_t steps)
     return isnan(wish->step) ? steps : (uint32_t)fmin(ceil(steps * wish->step), 4e9);
 }
 
-/* Simulates, and draws the film if requested. */
-static mote_status run(const request *wish, mote_simulator *simulator, mote_rigid_state *trace,
-                       mote_simulation_start *start, mote_simulation_result *result)
+/* Makes the film of a simulation that is about to start, if one is requested. */
+static mote_status start_film(const request *wish, mote_simulator *simulator,
+                              mote_simulation_start *start, mote_film **film)
 {
+    if (!wish->film)
+        return MOTE_OK;
+    const mote_status status = mote_film_create(simulator, wish->choices.items[0].text,
+                                                watched(wish, start->steps), wish->film, film);
+    start->watch = mote_film_watch;
+    start->context = *film;
+    return status;
+}
+
+/* Simulates, writes the trace and draws the film, if requested. */
+static mote_status run(const request *wish, const mote_subject *subject,
+                       const mote_simulation_options *options, mote_simulator *simulator,
+                       mote_simulation_result *result)
+{
+    const uint32_t bodies = mote_simulator_bodies(simulator).count;
+    mote_simulation_start start = mote_simulation_start_of(simulator);
+    start.seed = wish->seed;
+    if (wish->steps > 0)
+        start.steps = (uint32_t)wish->steps;
     mote_film *film = NULL;
-    mote_status status = MOTE_OK;
-    if (wish->film)
-        status = mote_film_create(simulator, wish->choices.items[0].text,
-                                  watched(wish, start->steps), wish->film, &film);
-    if (film) {
-        start->watch = mote_film_watch;
-        start->context = film;
-    }
+    mote_rigid_state *trace = NULL;
+    if (wish->trace)
+        trace = mote_allocate(((size_t)start.steps + 1) * bodies, sizeof *trace);
+    mote_status status = start_film(wish, simulator, &start, &film);
     if (status == MOTE_OK)
-        status = mote_simulator_run(simulator, start, trace, result);
+        status = mote_simulator_run(simulator, &start, trace, result);
+    if (status == MOTE_OK && trace)
+        status = mote_trace_write(subject, mote_simulator_masses(simulator), trace,
+                                  (uint32_t)result->steps + 1, options, wish->trace);
     if (status == MOTE_OK && film)
         status = mote_film_draw(film);
     mote_film_destroy(film);
+    free(trace);
     return status;
 }
 
@@ -97,18 +116,8 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
         mote_simulator_create(subject, &wish->choices.items[0], &options, &simulator);
     if (status != MOTE_OK)
         return status;
+    status = run(wish, subject, &options, simulator, &result);
     const uint32_t bodies = mote_simulator_bodies(simulator).count;
-    mote_simulation_start start = mote_simulation_start_of(simulator);
-    start.seed = wish->seed;
-    if (wish->steps > 0)
-        start.steps = (uint32_t)wish->steps;
-    mote_rigid_state *trace = NULL;
-    if (wish->trace)
-        trace = mote_allocate(((size_t)start.steps + 1) * bodies, sizeof *trace);
-    status = run(wish, simulator, trace, &start, &result);
-    if (status == MOTE_OK && trace)
-        status = mote_trace_write(subject, mote_simulator_masses(simulator), trace,
-                                  (uint32_t)result.steps + 1, &options, wish->trace);
     FILE *out = result_stream(wish);
     const char *method = wish->choices.items[0].text;
     if (status == MOTE_OK && wish->json)
@@ -116,7 +125,6 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
             mote_simulation_json(wish->scenarios[0], bodies, method, &result), out);
     else if (status == MOTE_OK)
         mote_simulation_print(wish->scenarios[0], bodies, method, &result, out);
-    free(trace);
     mote_simulator_destroy(simulator);
     return status;
 }

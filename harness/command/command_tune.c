@@ -29,6 +29,9 @@ static int print_best(const char *directory, const char *scenario, bool fcl)
         return mote_command_fail();
     if (configuration[0])
         (void)printf("%s\n", configuration);
+    else
+        (void)fprintf(stderr, "mote: %s/tune.json lists no %s that is right on %s\n", directory,
+                      fcl ? "FCL" : "engine of others", scenario);
     free(configuration);
     return mote_command_finish(MOTE_EXIT_DONE);
 }

@@ -13,7 +13,7 @@ positive distance. An array that has the type that the library reads is not copi
 
 Objects are for one thread at a time: a second one gets RuntimeError. Different objects may be used
 by different threads at once, and share meshes and fields; the library runs without the interpreter's
-lock. A wrong argument raises TypeError or ValueError, whose text begins with the argument's name.
+lock. A wrong argument raises TypeError or ValueError, whose text names the argument.
 """
 
 from ._library import VERSION as __version__

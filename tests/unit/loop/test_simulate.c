@@ -14,6 +14,7 @@
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define FILE_NAME "s.json"
@@ -497,6 +498,19 @@ TEST(command_simulate_film_is_a_gif)
     assert_true(pictures >= 9);
     free(gif);
     assert_int_not_equal(access(FILM ".frames", F_OK), 0);
+}
+
+/* Where the film cannot be written, the trace still is. */
+TEST(command_simulate_keeps_the_trace_without_a_film)
+{
+    mote_scenario_destroy(load("", "1.1, 0.1, 0", FLYING));
+    assert_int_equal(mkdir("taken.gif", 0700), 0);
+    mote_expect(4, "taken.gif",
+                "simulate " FILE_NAME
+                " --method particle-paper:n=3 --steps 8 --film taken.gif --trace kept.json");
+    assert_int_equal(access("kept.json", F_OK), 0);
+    assert_int_equal(unlink("kept.json"), 0);
+    assert_int_equal(rmdir("taken.gif"), 0);
 }
 
 /* More steps with a contact than a film has pictures, bodies above each other or in one place,

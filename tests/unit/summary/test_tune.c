@@ -89,8 +89,10 @@ TEST(tune_names_the_fastest_right_configuration)
     mote_expect(0, best, "tune --best-fcl tt .");
     assert_int_equal(strcspn(said, "\n"), strlen(best));
     assert_memory_equal(said, best, strlen(best));
-    mote_expect(0, "", "tune --best-fcl ww .");
+    mote_expect(0, "", "tune --best-fcl ww . 2>err.txt");
     assert_string_equal(said, "");
+    mote_expect(0, "./tune.json lists no FCL that is right on ww", "tune --best-fcl ww .");
+    mote_expect(0, "lists no engine of others that is right on ww", "tune --best ww .");
     /* Of the engines of others there are only FCL's and libccd's, and libccd's parts are no
        engine for meshes. */
     mote_expect(0, best, "tune --best tt .");
@@ -107,8 +109,8 @@ TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
     } cases[] = {
         {"{\"rows\": [%s, \"neg\", \"total_ns\": -5}, %s, \"good\", \"total_ns\": 5}]}\n",
          "good\n", 0},
-        {"{\"rows\": [%s, \"none\", \"total_ns\": null}, %s, \"nil\", \"total_ns\": 0}]}\n", "",
-         0},
+        {"{\"rows\": [%s, \"none\", \"total_ns\": null}, %s, \"nil\", \"total_ns\": 0}]}\n",
+         "mote: edited/tune.json lists no FCL that is right on ww\n", 0},
         {"{\"rows\": 5}\n", "no rows", 4},
         {"{}\n", "no rows", 4},
         {"[]\n", "no rows", 4}};

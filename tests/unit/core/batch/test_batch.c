@@ -381,6 +381,12 @@ TEST(reflections_last_rows_threads_and_tolerances_are_checked)
     square[3][1] = 0.5;
     assert_int_equal(mote_batch_query(batch, t.controls, &run), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "the last row is 0 0.5 0 1"));
+    static const size_t rows[] = {0, 2, 5, SIZE_MAX};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        t.controls[1].pose_rows = rows[i];
+        assert_int_equal(mote_batch_query(batch, t.controls, &run), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), "rows; give 3, or 4"));
+    }
     t.controls[1] = (mote_controls){.pose = NULL};
     run.threads = 257;
     assert_int_equal(mote_batch_query(batch, t.controls, &run), MOTE_EINVAL);

@@ -305,6 +305,13 @@ TEST(mote_impact_scene_refuses_with_reason)
     c.of[1].frame[1][3].z = NAN;
     check_refused(&c, &good, "body 1");
     c.of[1].frame[1][3].z = 0;
+    const mote_positions kept = c.of[1].positions[1];
+    c.of[1].positions[1].data = NULL;
+    check_refused(&c, &good, "body 1 has no positions");
+    c.of[1].positions[1] = kept;
+    c.of[1].positions[1].stride = 20;
+    check_refused(&c, &good, "body 1 has a stride of 20 bytes");
+    c.of[1].positions[1] = kept;
     c.paths[1].positions = NULL;
     check_refused(&c, &good, "body 1: its path is to be one of positions");
     c.paths[1].positions = c.of[1].positions;
