@@ -2,13 +2,26 @@
 _mote()
 {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-    local program=${COMP_WORDS[0]} command=${COMP_WORDS[1]} table words= value
+    local program=${COMP_WORDS[0]} at=1 command table words= value
     COMPREPLY=()
+    # The command comes after the options that every command has.
+    while [ "$at" -lt "$COMP_CWORD" ]; do
+        case ${COMP_WORDS[at]} in
+        --strict) at=$((at + 1)) ;;
+        --allow | --plugin) at=$((at + 2)) ;;
+        *) break ;;
+        esac
+    done
+    command=${COMP_WORDS[at]}
     # "command", name, arguments, summary; then "option", name, value, help; tabs between them.
     table=$("$program" --help-table 2>/dev/null)
-    if [ "$COMP_CWORD" -eq 1 ] || { [ "$COMP_CWORD" -eq 2 ] && [ "$command" = help ]; }; then
+    if [[ $previous = --allow || $previous = --plugin ]]; then
+        compopt -o default
+        return
+    fi
+    if [ "$COMP_CWORD" -eq "$at" ] || { [ "$COMP_CWORD" -eq 2 ] && [ "$command" = help ]; }; then
         words=$(printf '%s\n' "$table" | awk -F '\t' '$1 == "command" { print $2 }')
-        [ "$COMP_CWORD" -eq 2 ] || words="$words help --help --version"
+        [ "$command" = help ] || words="$words help --help --version --allow --plugin --strict"
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
         return
     fi
@@ -29,6 +42,7 @@ _mote()
     esac
     if [ -z "$words" ]; then
         words="$(printf '%s\n' "$table" | awk -F '\t' '$1 == "option" { print $2 }') --help"
+        [ "$command" = race ] || words="$words --plugin"
         case $table in
         *SCENARIO*)
             words="$words $("$program" list scenarios 2>/dev/null | cut -d ' ' -f 1)"

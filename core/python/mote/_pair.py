@@ -77,10 +77,11 @@ class Pair(TwoBodies):
 
     def _set_samples(self, options: lib.BatchOptions, k: int, name: str, value: object) -> Any:
         weights, amounts = self._bodies[k].framed(name, value)
+        counts = {f.frames for f in (weights, amounts) if f is not None}
         if value is not None:
-            options.sample_count[k] = count_frames(
-                {name: f.frames for f in (weights, amounts) if f is not None}
-            )
+            if len(counts) != 1 or None in counts:
+                raise ValueError(f"{name}: expected (k, *weights_shape), k weights of one frame each")
+            options.sample_count[k] = counts.pop()
         fill(options.samples[k], None, weights, amounts, 0)
         return weights, amounts
 
