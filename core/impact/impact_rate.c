@@ -227,24 +227,36 @@ static double weights_kink(const mote_impact_search *s, int i, const mote_path_p
     return sum;
 }
 
+/* By how much the angular velocity changes at most where piece b follows a. Infinite between
+   two kinds of rotation, and between cubics that begin and end with other quaternions, as q and
+   -q, of the same rotation: their derivatives cannot be compared. */
+static double turn_kink(const mote_path_piece *a, const mote_path_piece *b)
+{
+    if (a->spins != b->spins)
+        return HUGE_VAL;
+    if (a->spins)
+        return mote_length(mote_sub(a->spin, b->spin));
+    if (norm(difference(a->turn[3], b->turn[0])) > 0x1p-40 * norm(b->turn[0]))
+        return HUGE_VAL;
+    return 6 *
+           norm(difference(difference(a->turn[3], a->turn[2]),
+                           difference(b->turn[1], b->turn[0]))) /
+           fmin(mote_path_least_turn(a), mote_path_least_turn(b));
+}
+
 /* A bound on how much the velocity of any vertex changes at once where piece k of body i's path
-   begins. Infinite between two kinds of rotation, and of a path of positions. */
+   begins. Infinite where that of the angular velocity is, and of a path of positions. */
 static double kink_of(const mote_impact_search *s, int i, uint32_t k)
 {
     if (s->lines[i] || s->body[i].field->numbers > 0)
         return HUGE_VAL;
     const mote_path *path = s->question->path[i];
     const mote_path_piece *a = &path->pieces[k - 1], *b = &path->pieces[k];
-    if (a->spins != b->spins)
+    const double turn = turn_kink(a, b);
+    if (!(turn < HUGE_VAL))
         return HUGE_VAL;
     const mote_vec3 end = mote_sub(a->centre[3], a->centre[2]);
     const mote_vec3 start = mote_sub(b->centre[1], b->centre[0]);
-    double turn = mote_length(mote_sub(a->spin, b->spin));
-    if (!a->spins)
-        turn = 6 *
-               norm(difference(difference(a->turn[3], a->turn[2]),
-                               difference(b->turn[1], b->turn[0]))) /
-               fmin(mote_path_least_turn(a), mote_path_least_turn(b));
     double size = 0; /* of what turns */
     if (turn > 0) {
         size = s->groups[i].size + mote_length(path->pivot);

@@ -23,7 +23,7 @@ typedef struct mote_cast_kind {
 } mote_cast_kind;
 
 /* The weights of a state in its body's own axes, as above; the padding is left as it is. */
-void mote_cast_weights(const mote_body_state *state, double *weights);
+void mote_cast_weights(const mote_field *field, const mote_body_state *state, double *weights);
 
 extern const mote_cast_kind mote_cast_pair, mote_cast_scene;
 

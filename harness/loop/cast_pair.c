@@ -1,17 +1,37 @@
 #include "harness/loop/cast.h"
 
 #include "harness/base/memory.h"
+#include "harness/loop/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void mote_cast_weights(const mote_body_state *state, double *weights)
+/* How many weights turn with the body; numbers, which come last, do not. */
+static uint32_t turning(const mote_field *field)
+{
+    return field->count - field->numbers;
+}
+
+/* Weight j in the axes of its body, which has this rotation. The three weights before numbers
+   are the axes themselves. */
+static mote_vec3 own_weight(const mote_field *field, const mote_weights *weights,
+                            const mote_mat3 *rotation, uint32_t j)
+{
+    const mote_vec3 w = {weights->x[j], weights->y[j], weights->z[j]};
+    if (j >= turning(field))
+        return w;
+    if (field->numbers > 0 && j + 3 >= turning(field)) {
+        const uint32_t axis = j + 3 - turning(field);
+        return mote_vec3_make(axis == 0, axis == 1, axis == 2);
+    }
+    return mote_rotate_back(rotation, w);
+}
+
+void mote_cast_weights(const mote_field *field, const mote_body_state *state, double *weights)
 {
     const size_t padded = state->weights.padded;
     for (uint32_t j = 0; j < state->weights.count; ++j) {
-        const mote_vec3 w = mote_rotate_back(
-            &state->pose.rotation,
-            mote_vec3_make(state->weights.x[j], state->weights.y[j], state->weights.z[j]));
+        const mote_vec3 w = own_weight(field, &state->weights, &state->pose.rotation, j);
         weights[j] = w.x;
         weights[padded + j] = w.y;
         weights[2 * padded + j] = w.z;
@@ -26,6 +46,7 @@ typedef struct pair_cast {
     mote_body_state body[2]; /* as they are shown */
     uint32_t first;          /* deformation frame shown first */
     double radius[2];        /* greatest distance of a rest vertex from the centre of mass */
+    double *sizes[2];        /* of the basis functions, or NULL */
     double *weights[2];      /* those of the frame, in world axes: x, y, z, [3][padded] */
     double *still[2];        /* the same in rest axes, [count][3] */
     double *before[2];       /* those of the previous frame */
@@ -36,6 +57,7 @@ static void pair_destroy(void *cast)
 {
     pair_cast *s = cast;
     for (int i = 0; i < 2; ++i) {
+        free(s->sizes[i]);
         free(s->weights[i]);
         free(s->still[i]);
         free(s->before[i]);
@@ -51,6 +73,7 @@ static void measure_body(pair_cast *s, int i)
         s->radius[i] =
             fmax(s->radius[i], mote_distance_squared(mesh->positions[v], s->masses[i].centre));
     s->radius[i] = sqrt(s->radius[i]);
+    s->sizes[i] = mote_reach_sizes(&s->scenario->body[i]);
     const size_t numbers = (size_t)3 * s->scenario->body[i].field->padded;
     s->weights[i] = mote_allocate(numbers, sizeof(double));
     s->still[i] = mote_allocate(numbers, sizeof(double));
@@ -89,15 +112,15 @@ static double shown_place(const pair_cast *s, double frames)
 /* Rotates the weights of body i from the scenario's pose to the simulated one. */
 static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
 {
+    const mote_field *field = s->scenario->body[i].field;
     mote_body_state *body = &s->body[i];
     const uint32_t padded = body->weights.padded;
     double *world = s->weights[i], *still = s->before[i];
     s->before[i] = s->still[i];
     s->still[i] = still;
     for (uint32_t j = 0; j < body->weights.count; ++j) {
-        const mote_vec3 w = mote_rotate_back(
-            shown, mote_vec3_make(body->weights.x[j], body->weights.y[j], body->weights.z[j]));
-        const mote_vec3 turned = mote_rotate(&body->pose.rotation, w);
+        const mote_vec3 w = own_weight(field, &body->weights, shown, j);
+        const mote_vec3 turned = j < turning(field) ? mote_rotate(&body->pose.rotation, w) : w;
         memcpy(&still[(size_t)3 * j], &w, sizeof w);
         world[j] = turned.x;
         world[padded + j] = turned.y;
@@ -109,21 +132,18 @@ static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
 }
 
 /* The most that any point of body i has moved since the previous frame: by its centre, by
-   rotation, and by deformation; basis functions are at most 1. */
+   rotation, and by deformation. */
 static double body_moved(const pair_cast *s, int i)
 {
     const mote_rigid_state *a = &s->previous[i], *b = &s->state[i];
     const mote_quaternion back = {a->turn.w, -a->turn.x, -a->turn.y, -a->turn.z};
     const mote_quaternion d = mote_quaternion_multiply(b->turn, back);
     const double chord = 2 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-    double radius = s->radius[i], shape = 0;
     const mote_vec3 *now = (const mote_vec3 *)(const void *)s->still[i];
     const mote_vec3 *then = (const mote_vec3 *)(const void *)s->before[i];
-    for (uint32_t j = 0; j < s->scenario->body[i].field->count; ++j) {
-        radius += mote_length(then[j]);
-        shape += mote_length(mote_sub(now[j], then[j]));
-    }
-    return mote_length(mote_sub(b->centre, a->centre)) + chord * radius + shape;
+    const mote_reach reach = mote_reach_of(s->scenario->body[i].field, s->sizes[i], then, now);
+    return mote_length(mote_sub(b->centre, a->centre)) + chord * (s->radius[i] + reach.shape) +
+           reach.change;
 }
 
 static double pair_moved(const void *cast)
@@ -160,7 +180,7 @@ static void pair_weigh(void *cast, double frames, double *const *weights)
     const mote_frame *frame =
         mote_scenario_frame_at(s->scenario, s->buffer, shown_place(s, frames));
     for (int i = 0; i < 2; ++i)
-        mote_cast_weights(&frame->body[i], weights[i]);
+        mote_cast_weights(s->scenario->body[i].field, &frame->body[i], weights[i]);
 }
 
 const mote_cast_kind mote_cast_pair = {pair_create, pair_destroy, pair_restart,

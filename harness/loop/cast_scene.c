@@ -55,7 +55,8 @@ static void scene_weigh(void *cast, double frames, double *const *weights)
     const mote_pose still = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
     for (uint32_t i = 0; i < s->bodies->count; ++i) {
         mote_bodies_deform(s->bodies, i, 1 + frames, &still, &s->frame);
-        mote_cast_weights(&s->frame.states[i], weights[i]);
+        mote_cast_weights(s->bodies->shapes[s->bodies->shape_of[i]].body.field,
+                          &s->frame.states[i], weights[i]);
     }
 }
 

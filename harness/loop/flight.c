@@ -2,6 +2,7 @@
 
 #include "core/body/path_place.h"
 #include "harness/base/memory.h"
+#include "harness/loop/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,8 @@ typedef struct flown {
     double *key[3];     /* the same behind, at and before the end of a piece */
     double *world;      /* of the body as it is shown */
     double radius;      /* greatest distance of a rest vertex from the centre of mass */
+    double *sizes;      /* of the basis functions, or NULL */
+    mote_vec3 *own[2];  /* [count] weights in the body's axes, as it was and as it is shown */
     mote_body_state previous;
     double *previous_world;
 } flown;
@@ -53,6 +56,9 @@ static void make_body(mote_flight *f, uint32_t i)
     for (uint32_t v = 0; v < shape->mesh->vertex_count; ++v)
         b->radius = fmax(b->radius, mote_distance_squared(shape->mesh->positions[v], centre));
     b->radius = sqrt(b->radius);
+    b->sizes = mote_reach_sizes(shape);
+    for (int k = 0; k < 2; ++k)
+        b->own[k] = mote_allocate((size_t)b->padded + 1, sizeof *b->own[k]);
     f->paths[i] = (mote_path){.pivot = centre, .pieces = b->pieces};
 }
 
@@ -81,6 +87,9 @@ void mote_flight_destroy(mote_flight *flight)
                                   b->key[2], b->world, b->previous_world, b->controls};
         for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; ++k)
             free(arrays[k]);
+        free(b->sizes);
+        free(b->own[0]);
+        free(b->own[1]);
         free(b->pieces);
         free(b->ends);
     }
@@ -255,34 +264,37 @@ const mote_body_state *mote_flight_show(mote_flight *flight, double part)
     return flight->shown;
 }
 
-static mote_vec3 weight_of(const mote_body_state *state, uint32_t j)
+static void turn_back(const mote_body_state *state, mote_vec3 *own)
 {
-    return mote_rotate_back(
-        &state->pose.rotation,
-        mote_vec3_make(state->weights.x[j], state->weights.y[j], state->weights.z[j]));
+    const mote_weights *w = &state->weights;
+    for (uint32_t j = 0; j < w->count; ++j)
+        own[j] =
+            mote_rotate_back(&state->pose.rotation, mote_vec3_make(w->x[j], w->y[j], w->z[j]));
 }
 
-/* The most that any point of body i has moved: by its centre, by rotation, and by deformation;
-   basis functions are at most 1 in size. */
+/* The most that any point of body i has moved: by its centre, by rotation, and by deformation.
+ */
 static double body_moved(const mote_flight *f, uint32_t i)
 {
-    const mote_body_state *a = &f->bodies[i].previous, *b = &f->shown[i];
-    double square = 0, radius = f->bodies[i].radius, shape = 0;
+    const flown *body = &f->bodies[i];
+    const mote_body_state *a = &body->previous, *b = &f->shown[i];
+    double square = 0;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) {
             const double d = b->pose.rotation.m[r][c] - a->pose.rotation.m[r][c];
             square += d * d;
         }
     }
-    for (uint32_t j = 0; j < b->weights.count; ++j) {
-        const mote_vec3 then = weight_of(a, j), now = weight_of(b, j);
-        radius += mote_length(then);
-        shape += mote_length(mote_sub(now, then));
-    }
+    turn_back(a, body->own[0]);
+    turn_back(b, body->own[1]);
+    const mote_reach reach =
+        mote_reach_of(f->simulator->shapes[f->simulator->shape_of[i]]->field, body->sizes,
+                      body->own[0], body->own[1]);
     const mote_vec3 pivot = f->paths[i].pivot;
     const mote_vec3 centre =
         mote_sub(mote_pose_apply(&b->pose, pivot), mote_pose_apply(&a->pose, pivot));
-    return mote_length(centre) + sqrt(square / 2) * radius + shape; /* the chord's length */
+    const double chord = sqrt(square / 2);
+    return mote_length(centre) + chord * (body->radius + reach.shape) + reach.change;
 }
 
 double mote_flight_moved(const mote_flight *flight)

@@ -354,6 +354,39 @@ TEST(mote_impact_query_random_paths_agree_with_samples)
     }
 }
 
+/* A bar that turns away from a small box and, in the second piece, back to it. The second piece
+   has the negative quaternions of the first: the derivatives of both are the same where they
+   join, but the angular velocity is reversed. */
+TEST(mote_impact_query_bar_that_turns_back_by_negative_quaternions)
+{
+    for (int k = 0; k < 12; ++k) {
+        impact_scene s;
+        impact_scene_init_patient(&s, impact_box(2, 0.1, 0.1), impact_box(0.1, 0.1, 0.1),
+                                  IMPACT_RIGID, 1, k % 2 ? 0 : 10);
+        const double most = 0.2 + 0.03 * k, at = 2 * atan(most) - 0.3; /* of the box */
+        s.of[0].path.count = s.of[1].path.count = 2;
+        for (int i = 0; i < 4; ++i) {
+            const mote_quaternion q = {1, 0, 0, most * i / 3};
+            s.of[0].piece[0].turn[i] = q;
+            s.of[0].piece[1].turn[3 - i] = (mote_quaternion){-q.w, -q.x, -q.y, -q.z};
+            for (int piece = 0; piece < 2; ++piece)
+                s.of[1].piece[piece].centre[i] =
+                    mote_vec3_make(0.9 * cos(at), 0.9 * sin(at), 0);
+        }
+        mote_impact_question question = impact_question(&s, 0);
+        question.begin = 0.46;
+        double apart = 0.5, met = 1 - 0.5 * tan(at / 2) / most; /* the bar is amid the box */
+        assert_true(impact_distance(&s, question.begin) > 0.01);
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (apart + met);
+            *(impact_distance(&s, middle) > 0 ? &apart : &met) = middle;
+        }
+        const mote_impact_found found = impact_ask(&s, question);
+        impact_check_found(&found, apart);
+        impact_scene_free(&s);
+    }
+}
+
 /* A body that passes another at a thousandth of its size: speeds alone need hundreds of steps,
    directions a few, and both find the same. */
 TEST(mote_impact_query_sweeps_save_iterations)
