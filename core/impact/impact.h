@@ -70,8 +70,9 @@ typedef struct mote_impact_found {
     double from; /* proven: the distance is above the tolerance at all times from begin up to,
                     but not at, this one; `end` where there is no impact */
     double to;   /* >= from */
-    double distance;      /* at `to`, exact */
-    mote_vec3 witness[2]; /* at `to`, on the surfaces */
+    double
+        distance; /* at `to`, exact; where there is no impact, at the last time asked about */
+    mote_vec3 witness[2]; /* on the surfaces at that time */
     mote_vec3 normal;     /* of length 1, from body 0 to body 1, at the last time asked about at
                              which they were apart; 0 where they never were */
     uint32_t iterations;  /* certified queries made */

@@ -81,7 +81,7 @@ static double proven_since(mote_impact_search *s, double time)
             return fmax(fmin(since, time), s->question->begin);
         }
         gap -= needed;
-        if (at.piece == 0)
+        if (at.piece == 0 || (double)at.piece / count <= s->question->begin)
             return s->question->begin;
         --at.piece;
         at.u = 1;

@@ -296,7 +296,9 @@ const mote_impact_rate *mote_impact_rate_of(mote_impact_search *s, uint32_t k)
     rate->acceleration =
         (a.acceleration + b.acceleration + pivots.change) * (1 + 1e-9) + rate->noise;
     rate->turn = fmax(a.turn, b.turn);
-    rate->kink = k > 0 ? kink_of(s, 0, k) + kink_of(s, 1, k) : 0;
+    const mote_impact_question *q = s->question;
+    const bool first = k <= mote_path_place(q->path[0], q->begin).piece;
+    rate->kink = first ? 0 : kink_of(s, 0, k) + kink_of(s, 1, k);
     rate->known = true;
     return rate;
 }

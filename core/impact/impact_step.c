@@ -22,8 +22,10 @@ static step step_from(mote_impact_search *s, mote_place at, double gap)
     double most = end - (at.piece + at.u);
     for (uint32_t k = at.piece; k < s->question->path[0]->count; ++k) {
         const double before = k > at.piece ? k - (at.piece + at.u) : 0;
+        if (before >= most) /* what is beyond the end of the question may not be there */
+            return chosen;
         const mote_impact_rate *rate = mote_impact_rate_of(s, k);
-        if (before >= most || (k > at.piece && rate->kink > KINK_MOST * rate->speed))
+        if (k > at.piece && rate->kink > KINK_MOST * rate->speed)
             return chosen;
         const double acceleration = fmax(chosen.acceleration, rate->acceleration);
         double allowed = sqrt(2 * gap / acceleration);

@@ -50,8 +50,12 @@ static mote_status make_bodies(mote_film *film)
 mote_status mote_film_create(const mote_simulator *simulator, const char *method,
                              uint32_t steps, const char *path, mote_film **film)
 {
+    const mote_simulated bodies = mote_simulator_bodies(simulator);
+    if (bodies.count < 2)
+        return mote_fail(MOTE_EINVAL, "a film is of two bodies or more; %s has one",
+                         bodies.name);
     mote_film *made = mote_allocate(1, sizeof *made);
-    made->bodies = mote_simulator_bodies(simulator);
+    made->bodies = bodies;
     made->method = mote_duplicate(method);
     made->path = mote_duplicate(path);
     made->folder = mote_path_is_stream(path)

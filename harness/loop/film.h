@@ -14,7 +14,8 @@ typedef struct mote_film mote_film;
 
 /* Films a simulation of that many steps by a method (its displayed name) into the GIF file
    path. The simulator is borrowed until the film is destroyed. Until then, geometry is stored
-   in the folder path.frames, up to some 200 bytes per triangle and picture. MOTE_EIO;
+   in the folder path.frames, up to some 200 bytes per triangle and picture. MOTE_EINVAL of one
+   body; MOTE_EIO;
    MOTE_ENOMEM for what a shape's deformation needs. */
 mote_status mote_film_create(const mote_simulator *simulator, const char *method,
                              uint32_t steps, const char *path, mote_film **film);

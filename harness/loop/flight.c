@@ -12,6 +12,7 @@
 #define ARC_LEAST 0.5
 
 typedef struct flown {
+    const mote_field *field;
     uint32_t padded;
     mote_path_piece *pieces; /* [room] */
     double *controls;        /* [room][4][3][padded] */
@@ -44,6 +45,7 @@ static void make_body(mote_flight *f, uint32_t i)
     const mote_body *shape = s->shapes[s->shape_of[i]];
     const mote_vec3 centre = s->masses[s->shape_of[i]].centre;
     flown *b = &f->bodies[i];
+    b->field = shape->field;
     b->padded = shape->field->padded;
     const size_t numbers = 3 * (size_t)b->padded + 1;
     b->pieces = mote_allocate(f->room, sizeof *b->pieces);
@@ -288,8 +290,7 @@ static double body_moved(const mote_flight *f, uint32_t i)
     turn_back(a, body->own[0]);
     turn_back(b, body->own[1]);
     const mote_reach reach =
-        mote_reach_of(f->simulator->shapes[f->simulator->shape_of[i]]->field, body->sizes,
-                      body->own[0], body->own[1]);
+        mote_reach_of(body->field, body->sizes, body->own[0], body->own[1]);
     const mote_vec3 pivot = f->paths[i].pivot;
     const mote_vec3 centre =
         mote_sub(mote_pose_apply(&b->pose, pivot), mote_pose_apply(&a->pose, pivot));
@@ -300,6 +301,18 @@ static double body_moved(const mote_flight *f, uint32_t i)
 double mote_flight_moved(const mote_flight *flight)
 {
     return body_moved(flight, 0) + body_moved(flight, 1);
+}
+
+/* The weights before the amounts of morph targets are the body's axes, however sums of control
+   points are rounded. */
+static void keep_axes(flown *b)
+{
+    const size_t first = b->field->count - b->field->numbers - 3;
+    for (size_t i = 0; i < 9 && b->field->numbers > 0; ++i) {
+        const size_t at = i / 3 * b->padded + first + i % 3;
+        b->now[at] = i / 3 == i % 3;
+        b->rate[at] = 0;
+    }
 }
 
 /* The weights at u of a piece, and their change a frame. */
@@ -313,6 +326,7 @@ static void keep_weights(flown *b, uint32_t k, double u, double step)
         b->now[j] = v * v * v * p + 3 * u * v * v * q + 3 * u * u * v * r + u * u * u * t;
         b->rate[j] = 3 * (v * v * (q - p) + 2 * u * v * (r - q) + u * u * (t - r)) / step;
     }
+    keep_axes(b);
 }
 
 /* The rotation of a piece at u: the quaternion that is nearest to its matrix's. */

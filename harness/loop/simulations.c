@@ -30,6 +30,8 @@ json_t *mote_simulation_question(const json_t *stored)
     json_t *question = json_object();
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; ++k)
         copy_key(stored, keys[k], question);
+    const json_int_t within = json_integer_value(json_object_get(stored, "within"));
+    (void)json_object_set_new(question, "within", json_integer(within)); /* older files: 0 */
     const json_int_t seed = json_integer_value(json_object_get(stored, "seed"));
     const json_int_t replicate = json_integer_value(json_object_get(stored, "replicate"));
     (void)json_object_set_new(question, "seed", json_integer(seed - replicate + 1));

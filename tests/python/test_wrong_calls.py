@@ -91,11 +91,15 @@ def bad_values():
     ]
 
 
+def skin_with_a_target(mesh):
+    return mote.Field.skin(mesh, np.eye(2)[[0, 0, 0, 0, 1, 0]], targets=np.ones((1, 6, 3)))
+
+
 def functions():
     """Name, callable and arguments that are right."""
     mesh = octahedron()
     field = mote.Field.csrbf([[0, 0, 1]], 1.9)
-    skin = mote.Field.skin(mesh, np.eye(2)[[0, 0, 0, 0, 1, 0]], targets=np.ones((1, 6, 3)))
+    skin = skin_with_a_target(mesh)
     pair, stream = mote.Pair(mesh, mesh, field, field), mote.Stream(mesh, mesh)
     skinned, scene = mote.Pair(mesh, mesh, skin), mote.Scene([(mesh, field)], 3)
     two = mote.Scene([mesh, (mesh, field)], [0, 1, 1])
@@ -173,6 +177,26 @@ def endless(name, argument, value):
     return (name, argument) == ("one shape", "bodies") and huge
 
 
+def frames_of_parts():
+    """The matrices and the amounts of a skin with targets have as many frames, or none."""
+    mesh = octahedron()
+    skinned = mote.Pair(mesh, mesh, skin_with_a_target(mesh))
+    whole = np.repeat(np.eye(3, 4)[None], 2, 0)
+    right = skinned.many(None, ((np.repeat(whole[None], 5, 0), np.ones(1)), None))
+    if len(right.distance) != 5 or np.ptp(right.distance) > 0:
+        raise AssertionError(f"frames of the matrices alone: {right.distance}")
+    for matrices, amounts, poses in ((5, 10, None), (5, 10, 10), (10, 5, None), (5, None, 10)):
+        weights = (np.repeat(whole[None], matrices, 0), np.ones(1) if amounts is None else np.ones((amounts, 1)))
+        moved = None if poses is None else np.repeat(np.eye(3, 4)[None, None], poses, 0).repeat(2, 1)
+        try:
+            skinned.many(moved, (weights, None))
+        except ValueError as error:
+            if "frames" not in str(error):
+                raise AssertionError(f"frames of parts: {error}") from error
+            continue
+        raise AssertionError(f"{matrices} frames of matrices beside {amounts} of amounts were taken")
+
+
 def main():
     faulthandler.dump_traceback_later(100, exit=True)
     seed = int(sys.argv[1]) if len(sys.argv) > 1 else 1
@@ -198,6 +222,7 @@ def main():
     for name, function, right in every:  # what was right before still is
         function(**right)
     gc.collect()
+    frames_of_parts()
     print(f"{tally.wrong} wrong calls of {tally.calls}, {systematic} of them one argument at a time, "
           f"seed {seed}: each raised an error that names an argument")
 

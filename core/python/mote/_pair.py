@@ -183,8 +183,8 @@ class Pair(TwoBodies):
                  for k, value in enumerate(pair_of("weights", weights))]
         frames = count_frames(
             {f"poses[{k}]": p.frames for k, p in enumerate(pose) if p is not None}
-            | {f"weights[{k}]": w.frames for k, both in enumerate(first) for w in both
-               if w is not None}
+            | {f"weights[{k}]": both[0].frames for k, both in enumerate(first)
+               if both[0] is not None}
             | {f"amounts in weights[{k}]": both[1].frames for k, both in enumerate(first)
                if both[1] is not None}
         )

@@ -238,6 +238,21 @@ TEST(mote_simulate_films_several_bodies)
     assert_int_not_equal(access(FILM ".frames", F_OK), 0);
 }
 
+TEST(mote_simulate_refuses_a_film_of_one_body)
+{
+    write_file("\"count\": 1, \"box\": 3, " LETTERS);
+    mote_expect(4, "a film is of two bodies or more",
+                "simulate " FILE_NAME " --method certified --steps 3 --film " FILM);
+    assert_int_not_equal(access(FILM, F_OK), 0);
+}
+
+/* Morph targets in flights, whose first impacts come within a frame of each other. */
+TEST(mote_simulate_flies_bodies_with_morph_targets)
+{
+    mote_expect(0, "2 bodies, 60 steps",
+                "simulate morph --method certified --step 7 --steps 60 --tolerance 0.02");
+}
+
 /* Farther apart than scenarios require, but nearer than this contact's distance. */
 TEST(mote_simulate_bodies_that_start_in_contact_are_refused)
 {

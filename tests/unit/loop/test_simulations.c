@@ -79,6 +79,18 @@ TEST(mote_simulate_shards_merge_to_the_whole)
     assert_non_null(strstr(said, "same or better"));
 }
 
+/* Sampled, continuous and whole steps are three experiments. */
+TEST(mote_simulate_steps_of_three_kinds_are_three_rows)
+{
+    static const char *const kinds[] = {"--step 4", "--step 4 --sampled", "--time-step 4"};
+    for (size_t k = 0; k < ROWS_OF(kinds); ++k)
+        mote_expect(0, "", "simulate two.json --method certified --steps 5 %s --out kinds",
+                    kinds[k]);
+    json_t *rows = rows_of("kinds");
+    assert_int_equal(json_array_size(rows), ROWS_OF(kinds));
+    json_decref(rows);
+}
+
 TEST(mote_simulate_a_slurm_task_is_a_shard)
 {
     assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "2", 1), 0);

@@ -412,6 +412,46 @@ TEST(mote_impact_query_bad_arrays_are_refused)
     impact_scene_free(&s);
 }
 
+/* Frames outside of the interval that is asked about are not read: they may not be there yet.
+ */
+TEST(mote_impact_query_reads_no_frame_beyond_the_interval)
+{
+    for (uint32_t patience = 0; patience <= 10; patience += 10) {
+        impact_scene s;
+        impact_scene_init_kinds(&s, make_torus(9, 5, 1), impact_box(1, 1, 1), arrays, 3,
+                                patience);
+        const impact_wild still = {.pieces = 2, .from = {0, 0, 0}, .to = {0, 0, 0}};
+        const impact_wild w = {
+            .pieces = 2, .from = {4, 0, 0}, .to = {2, 3, 0}, .turn = 2, .weights = 0.05};
+        impact_path_random(&s.of[0], &still, &s.random);
+        impact_path_random(&s.of[1], &w, &s.random);
+        mote_impact_question question = impact_question(&s, 0);
+        question.end = 0.4;
+        for (int i = 0; i < 2; ++i)
+            s.of[i].positions[2].data = NULL;
+        (void)impact_ask(&s, question);
+        for (int i = 0; i < 2; ++i) {
+            s.of[i].positions[2].data = s.of[i].frame[2];
+            s.of[i].positions[0].data = NULL;
+            for (uint32_t v = 0; v < s.of[i].mesh->vertex_count; ++v) { /* near, and leaving */
+                s.of[i].frame[1][v] =
+                    mote_add(s.of[i].mesh->positions[v], mote_vec3_make(0, 0, 10.0 * i));
+                s.of[i].frame[2][v] =
+                    mote_add(s.of[i].mesh->positions[v], mote_vec3_make(0, 0, 200.0 * i));
+            }
+        }
+        /* the lowest of the box, just above the highest of the torus */
+        const double gap = 10 + s.of[1].mesh->low.z - s.of[0].mesh->high.z - 1e-5;
+        for (uint32_t v = 0; v < s.of[1].mesh->vertex_count; ++v)
+            s.of[1].frame[1][v].z -= gap;
+        question.begin = 0.5;
+        question.end = 1;
+        const mote_impact_found found = impact_ask(&s, question);
+        assert_int_equal(found.outcome, MOTE_IMPACT_NONE);
+        impact_scene_free(&s);
+    }
+}
+
 /* Bodies of several blocks of leaves, that crumple as they move: no sample before the bracket
    is in contact, and at its end all pairs of triangles are. */
 TEST(mote_impact_query_arrays_of_many_leaves_agree_with_samples)
