@@ -58,7 +58,8 @@ static void make_body(mote_flight *f, uint32_t i)
     for (uint32_t v = 0; v < shape->mesh->vertex_count; ++v)
         b->radius = fmax(b->radius, mote_distance_squared(shape->mesh->positions[v], centre));
     b->radius = sqrt(b->radius);
-    b->sizes = mote_reach_sizes(shape);
+    if (f->count == 2) /* nobody asks how far many bodies have moved */
+        b->sizes = mote_reach_sizes(shape);
     for (int k = 0; k < 2; ++k)
         b->own[k] = mote_allocate((size_t)b->padded + 1, sizeof *b->own[k]);
     f->paths[i] = (mote_path){.pivot = centre, .pieces = b->pieces};
