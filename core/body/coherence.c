@@ -10,7 +10,7 @@ mote_status mote_coherence_init(mote_coherence *coherence, const mote_body *cons
     for (int b = 0; b < 2; ++b) {
         mote_stance *stance = &coherence->stance[b];
         const uint32_t padded = bodies[b]->field->padded;
-        stance->weights = malloc(((size_t)padded + 1) * sizeof *stance->weights);
+        stance->weights = calloc((size_t)padded + 1, sizeof *stance->weights);
         if (!stance->weights)
             return mote_fail(MOTE_ENOMEM, "no memory for %u weights", padded);
         while (stance->probe_count < counts[b] && stance->probe_count < MOTE_PROBES_MAX) {

@@ -67,15 +67,17 @@ typedef struct mote_certificate_answer {
     double distance;      /* of the witnesses: an upper bound, exact unless stopped early */
     double lower;         /* proven: 0 <= lower <= distance */
     mote_vec3 witness[2]; /* world points on the surfaces */
-    bool stopped;         /* by the budget */
+    bool stopped;         /* by the budget, or where coordinates leave the range of floats */
     mote_counters counters;
 } mote_certificate_answer;
 
 /* Answers one frame, whose numbers must be finite; they are not checked. first (may be NULL):
    vertices of a pair of faces to start from, where the caller knows a good one; it changes the
    time only. enough: a contact question's tolerance, so that the query ends when distance <=
-   enough or lower > enough; negative for the distance. A distance whose square no double holds,
-   from 1e154 on, is infinite, and has no witnesses. No allocation. */
+   enough or lower > enough; negative for the distance. Where
+   coordinates of both bodies add up to 2.8e17 L or more, the nearest pair is not searched for:
+   the answer is a bracket. A distance whose square no double holds, from 1e154 on, is infinite,
+   and has no witnesses. No allocation. */
 void mote_certificate_query(mote_certificate *certificate, const mote_frame *frame,
                             const uint32_t (*first)[3], double enough,
                             mote_certificate_answer *answer);

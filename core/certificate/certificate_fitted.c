@@ -25,6 +25,8 @@
 #include "core/certificate/certificate_fitted.h"
 #include "core/certificate/certificate_project.h"
 
+#include <float.h>
+
 #define WIDTH MOTE_CERT_WIDTH
 #define FLOAT_ROUNDING 0x1p-24
 
@@ -76,8 +78,8 @@ static void set_margins(mote_cert_side *side, mote_vec3 field)
 {
     const mote_cert_tree *tree = side->tree;
     const uint32_t functions = tree->body->field->most;
-    side->bound = mote_largest_coordinate(side->exact_translation) + tree->radius +
-                  mote_largest_coordinate(field);
+    side->spread = tree->radius + mote_largest_coordinate(field);
+    side->bound = mote_largest_coordinate(side->exact_translation) + side->spread;
     side->noise = 0x1p-48 * side->bound * (functions > 256 ? functions / 256.0 : 1);
     side->exact = 0x1p-50 * (functions + 4) * (side->world + side->bound);
     side->margin_unit = rounded_up(2 * FLOAT_ROUNDING * side->bound);
@@ -336,6 +338,13 @@ static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANE
     }
 }
 
+/* Whether the weights of functions as they are can be floats: those of tiny functions may be
+   too large. */
+static bool has_singles(const fitted_frame *frame)
+{
+    return frame->single_sum[0] + frame->single_sum[1] + frame->single_sum[2] <= FLT_MAX;
+}
+
 static bool fitted_hull(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
                         mote_cert_hull *hull)
 {
@@ -347,7 +356,7 @@ static bool fitted_hull(const mote_cert_side *side, const mote_cert_node *node, 
     const float *const single[3] = {singles_of(frame, 0), singles_of(frame, 1),
                                     singles_of(frame, 2)};
     (void)lane;
-    if (body->field->count > 0 && !body->field->kind->estimate)
+    if (body->field->count > 0 && !(body->field->kind->estimate && has_singles(frame)))
         return false;
     float factor = 0;
     for (uint32_t first = 0; first < leaf->vertex_count; first += MOTE_LANES) {
@@ -363,7 +372,8 @@ static bool fitted_hull(const mote_cert_side *side, const mote_cert_node *node, 
         move_group(side, p, moved, first, hull);
     }
     for (size_t r = 0; r < 3; ++r)
-        hull->width[r] = node->leaf_margin + (factor + 0x1p-22F) * frame->single_sum[r];
+        hull->width[r] = node->leaf_margin + rounded_up(side->exact) +
+                         (factor + 0x1p-22F) * frame->single_sum[r];
     return true;
 }
 

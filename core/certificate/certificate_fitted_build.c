@@ -11,6 +11,9 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
+/* Functions are scaled up by at most 2 to this, so that the factor is a number. */
+#define MOST_SCALE 1000
+
 /* Values of functions that there is room for at once: those of MOTE_CERT_FIT_CHUNK vertices
    with 64 functions, of fewer vertices with more functions. */
 #define VALUES ((size_t)64 * MOTE_CERT_FIT_CHUNK)
@@ -92,7 +95,8 @@ static void scale_basis(const fitter *f, const mote_cert_tree *tree)
         }
     }
     for (uint32_t j = 0; j < f->functions; ++j) {
-        scales.scale[j] = scales.scale[j] > 0 ? ldexp(1, -ilogb(scales.scale[j])) : 1;
+        const int size = scales.scale[j] > 0 ? ilogb(scales.scale[j]) : 0;
+        scales.scale[j] = ldexp(1, size < -MOST_SCALE ? MOST_SCALE : -size);
         scales.unit[j] = tree->scale / scales.scale[j];
     }
 }

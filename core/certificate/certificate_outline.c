@@ -4,6 +4,7 @@
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"
 
+#include <float.h>
 #include <math.h>
 
 #define WIDTH MOTE_CERT_WIDTH
@@ -160,6 +161,8 @@ bool mote_cert_outlines_near(const mote_cert_outline *a, const mote_cert_outline
     const double size =
         fabs(apart.x) + fabs(apart.y) + fabs(apart.z) + 3 * (a->bound + b->bound);
     const double need = (near * scale + 0x1p-20 * size) * (1 + 0x1p-20);
+    if (!(need * need <= (double)FLT_MAX))
+        return true;
     const float shift[3] = {(float)apart.x, (float)apart.y, (float)apart.z};
     const facing f = {
         .outline = {a, b},

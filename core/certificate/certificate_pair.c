@@ -187,7 +187,7 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
         find_direction(c, &p))
         return;
     const double before = c->upper;
-    if (measure_all(c, &p) && c->upper < WORTH_RESTART * before &&
+    if (measure_all(c, &p) && !c->done && c->upper < WORTH_RESTART * before &&
         c->restarts < c->options.restarts) {
         c->improved = true;
         c->done = true;

@@ -24,6 +24,9 @@ mote_certificate_options mote_default_certificate_options(double length)
    instead of 28). */
 #define LEAP 0.1
 
+/* A distance is promised to 1e-12 L; three times the noise is given up. */
+#define PROMISED (1e-12 / 3)
+
 /* To be proven: nothing is nearer than the limit. Pairs whose bound is at least the limit are
    skipped, so that the distance is proven to 1e-13 of itself. */
 void mote_cert_set_best(mote_certificate *c, double squared)
@@ -31,6 +34,10 @@ void mote_cert_set_best(mote_certificate *c, double squared)
     c->best.squared = squared;
     c->upper = sqrt(squared);
     double limit = (c->upper - c->slack) * c->scale * (1 - 1e-13);
+    /* Where coordinates are so large that rounding hides more than is promised of a distance,
+       no pair within it of the best is skipped. */
+    if (c->enough < 0 && !(c->slack > 0) && c->noise > PROMISED * c->options.length * c->scale)
+        limit = c->upper * c->scale + 4 * c->noise;
     if (c->enough >= 0) {
         /* just above the tolerance, so that a pair exactly at the tolerance is found */
         const double enough = c->enough * c->scale * (1 + 1e-13) + 4 * c->noise;
@@ -135,18 +142,26 @@ static bool same_face(const uint32_t a[3], const uint32_t b[3])
     return true;
 }
 
+/* From witness 0 to witness 1, as a unit vector. Far from the world's origin witnesses are
+   rounded by more than their distance may be: where nothing is left of it, any direction does.
+ */
+static mote_vec3 across(const mote_vec3 witness[2])
+{
+    const mote_vec3 gap = mote_sub(witness[1], witness[0]);
+    const double inverse = 1 / mote_length(gap);
+    return inverse < HUGE_VAL ? mote_scale(gap, inverse) : mote_vec3_make(1, 0, 0);
+}
+
 /* Sets two parallel planes across the gap, the limit apart: body 0 should lie behind the first,
-   body 1 behind the second. */
+   body 1 behind the second. The second follows from the first, not from its witness, so that
+   they are the limit apart however witnesses are rounded. */
 static void set_plane(mote_certificate *c)
 {
-    const mote_vec3 *w = c->best.witness;
-    const mote_vec3 u = mote_scale(mote_sub(w[1], w[0]), 1 / c->upper);
-    const mote_vec3 facing[2] = {u, mote_scale(u, -1)};
+    const mote_vec3 u = across(c->best.witness);
     const double spare = 0.5 * (c->upper * c->scale - c->limit);
-    for (int s = 0; s < 2; ++s) {
-        const double at = mote_dot(mote_sub(w[s], c->origin), facing[s]) * c->scale;
-        mote_cert_side_face(&c->side[s], facing[s], at + spare);
-    }
+    const double at = mote_dot(mote_sub(c->best.witness[0], c->origin), u) * c->scale + spare;
+    mote_cert_side_face(&c->side[0], u, at);
+    mote_cert_side_face(&c->side[1], mote_scale(u, -1), -c->limit - at);
     ++c->generation;
 }
 
@@ -176,6 +191,25 @@ static void begin_sides(mote_certificate *c, const mote_frame *frame)
     for (int s = 0; s < 2; ++s)
         mote_cert_side_begin(&c->side[s], &frame->body[s], c->origin);
     c->noise = c->side[0].noise + c->side[1].noise;
+}
+
+/* Coordinates that add up to less than this have squares and products that are floats. */
+#define FARTHEST 0x1p59
+
+/* What is left to say where coordinates leave the range of floats: the bodies' middles are so
+   far apart along an axis, and nothing is farther from them than the spread. */
+static bool beyond_floats(mote_certificate *c, double *lower)
+{
+    const mote_cert_side *a = &c->side[0], *b = &c->side[1];
+    const double size = a->bound + b->bound;
+    if (size < FARTHEST)
+        return false;
+    const mote_vec3 middles = mote_sub(b->exact_translation, a->exact_translation);
+    const double rounded = 0x1p-40 * (size + a->world + b->world);
+    const double gap = mote_largest_coordinate(middles) - (a->spread + b->spread) - rounded;
+    *lower = gap > 0 ? gap / c->scale : 0;
+    c->stopped = true;
+    return true;
 }
 
 /* The point halfway between the middles of both bodies at rest, where their poses place them.
@@ -278,16 +312,19 @@ static void write_answer(mote_certificate *c, uint64_t evaluated, double lower,
 static double search_from_seed(mote_certificate *c, const mote_frame *frame,
                                const uint32_t (*first)[3])
 {
+    double lower = 0;
     find_seed(c, frame, first);
     c->upper = sqrt(c->best.squared);
     if (c->upper > c->enough) { /* else it is the contact that was asked for */
         c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
         begin_sides(c, frame);
-        mote_cert_set_best(c, c->best.squared);
-        prove(c);
+        if (!beyond_floats(c, &lower)) {
+            mote_cert_set_best(c, c->best.squared);
+            prove(c);
+            lower = lower_bound(c);
+        }
     }
     remember(c);
-    const double lower = lower_bound(c);
     mote_cert_remember_parting(c, lower);
     return lower;
 }
@@ -307,7 +344,7 @@ static double search_apart(mote_certificate *c, const mote_frame *frame)
         mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);
     begin_sides(c, frame);
     mote_cert_set_best(c, HUGE_VAL);
-    if (!mote_cert_still_apart(c, &lower)) {
+    if (!beyond_floats(c, &lower) && !mote_cert_still_apart(c, &lower)) {
         prove(c);
         lower = lower_bound(c);
     }

@@ -13,6 +13,16 @@ MOTE_INLINE uint32_t bits_below(const float x[WIDTH], float limit)
     return bits;
 }
 
+/* A NaN is not at least anything: it never rules a pair out. */
+MOTE_INLINE uint32_t bits_at_least(const float x[WIDTH], float limit)
+{
+    uint32_t bits = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        bits |= x[l] >= limit ? 1u << l : 0;
+    return bits;
+}
+
 /* The gap along the plane's normal. */
 MOTE_INLINE void along_plane(float reach, const mote_cert_node *restrict e, float bound[WIDTH])
 {
@@ -78,7 +88,7 @@ uint32_t mote_cert_row_plane(const mote_cert_node *restrict d, size_t lane,
     if (d->clear >> lane & 1)
         undecided &= ~e->clear;
     along_plane(d->reach[lane], e, bound);
-    return undecided & bits_below(bound, need);
+    return undecided & ~bits_at_least(bound, need);
 }
 
 MOTE_CLONES
@@ -115,5 +125,5 @@ uint32_t mote_cert_row_spans(const mote_cert_node *restrict d, size_t lane,
         apart[l] = sqrtf(squared) * (1 - 0x1p-21F);
         bound[l] = apart[l] > bound[l] ? apart[l] : bound[l];
     }
-    return undecided & bits_below(bound, need);
+    return undecided & ~bits_at_least(bound, need);
 }

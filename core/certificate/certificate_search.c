@@ -157,7 +157,7 @@ static void visit_row(mote_certificate *c, row r, uint32_t depth)
         }
         const size_t k = mote_lowest_bit(undecided);
         undecided &= ~(1u << k);
-        if (bound[k] < c->need)
+        if (!(bound[k] >= c->need))
             visit_pair(c, r, k, depth);
     }
 }
@@ -172,10 +172,12 @@ void mote_cert_traverse(mote_certificate *c)
     }
 }
 
-/* The pair of lanes whose centres are nearest to each other. */
+/* The pair of lanes whose centres are nearest to each other; the first ones, which every block
+   has, where no square of a distance is a float. */
 static void nearest_centres(const mote_cert_node *a, const mote_cert_node *b, size_t lane[2])
 {
     float best = FLT_MAX;
+    lane[0] = lane[1] = 0;
     for (size_t i = 0; i < WIDTH; ++i) {
         if (!(a->block->mask >> i & 1))
             continue;
@@ -196,7 +198,7 @@ static void nearest_centres(const mote_cert_node *a, const mote_cert_node *b, si
 void mote_cert_descend(mote_certificate *c, uint32_t vertex[2])
 {
     mote_cert_node *node[2] = {mote_cert_root(c, 0), mote_cert_root(c, 1)};
-    size_t lane[2] = {0, 0};
+    size_t lane[2];
     for (uint32_t depth = 0;; depth += 2) {
         mote_cert_make_boxes(c, 0, node[0]);
         mote_cert_make_boxes(c, 1, node[1]);
