@@ -3,11 +3,13 @@
    vertices), vertex with the inside of a face, and an edge that pierces a face. A general pair
    is decided by the side of each triangle's plane on which the other one lies; pairs that
    rounding could decide wrongly go to a slower search of all candidates, each refined by its
-   own residual. */
+   own residual. Where products of six lengths may leave the range of doubles, a pair is
+   doubtful; if its coordinates are all that small or some that large, it is scaled first. */
 #include "core/body/triangle.h"
 
 #include "core/base/clones.h"
 
+#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -22,6 +24,11 @@
 
 /* Below this squared sine of the corner a plane is left to the slower search. */
 #define FLAT_SINE_SQUARED (1.0 / 64)
+
+/* Coordinates are scaled where the largest is not within these powers of two: products of four
+   lengths are numbers with all their bits then. */
+#define LEAST_POWER (-100)
+#define MOST_POWER 100
 
 /* One candidate: the two points and their difference p - q, which is more accurate than they
  * are. */
@@ -124,6 +131,41 @@ static face make_face(const mote_vec3 t[3])
     f.n = mote_cross(f.e1, f.e2);
     measure_face(&f);
     return f;
+}
+
+static double largest_of(const mote_vec3 *points, int count)
+{
+    double largest = 0;
+    for (int i = 0; i < count; i++)
+        largest = max2(largest, mote_largest_coordinate(points[i]));
+    return largest;
+}
+
+/* The power of two to scale by two sets of points whose largest coordinate is given; 0: they
+   are as they should be. */
+static int power_for(double largest)
+{
+    const int power = largest > 0 && largest <= DBL_MAX ? ilogb(largest) : 0;
+    return power < LEAST_POWER || power > MOST_POWER ? -power : 0;
+}
+
+static mote_vec3 scaled(mote_vec3 v, int power)
+{
+    return mote_vec3_make(ldexp(v.x, power), ldexp(v.y, power), ldexp(v.z, power));
+}
+
+static void scale_all(const mote_vec3 *points, int count, int power, mote_vec3 *to)
+{
+    for (int i = 0; i < count; i++)
+        to[i] = scaled(points[i], power);
+}
+
+/* The squared distance of what was scaled, before it was. One too small for a double is the
+   least, since 0 means a contact. */
+static double unscaled_squared(double squared, int power)
+{
+    const double result = ldexp(squared, -2 * power);
+    return squared > 0 && !(result > 0) ? DBL_TRUE_MIN : result;
 }
 
 /* The squared length of the longest edge of s and t. */
@@ -386,6 +428,8 @@ static inline side classify(const face *f, const mote_vec3 v[3], double bound_sq
         ww = max2(ww, mote_length_squared(w));
     }
     double error_squared = HEIGHT_ERROR * HEIGHT_ERROR * f->ee * ww;
+    if (!(error_squared > 0x1p-800 && error_squared < 0x1p800 && f->nn > 0x1p-900))
+        return r;
     double h0 = fabs(r.h[0]), h1 = fabs(r.h[1]), h2 = fabs(r.h[2]);
     bool one = (r.h[0] > 0) == (r.h[1] > 0) && (r.h[0] > 0) == (r.h[2] > 0);
     r.lowest = h0 <= h1 ? (h0 <= h2 ? 0 : 2) : (h1 <= h2 ? 1 : 2);
@@ -486,6 +530,20 @@ static inline bool centres_separate(const mote_vec3 s[3], const mote_vec3 t[3],
  * contacts. */
 #define NEAR 1e-10
 
+static double triangles_scaled(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared,
+                               int power, mote_vec3 *p, mote_vec3 *q)
+{
+    mote_vec3 a[3], b[3], x, y;
+    scale_all(s, 3, power, a);
+    scale_all(t, 3, power, b);
+    const double squared = unscaled_squared(mote_triangle_triangle(a, b, &x, &y), power);
+    if (squared >= bound_squared && squared > 0)
+        return squared;
+    set(p, scaled(x, -power));
+    set(q, scaled(y, -power));
+    return squared;
+}
+
 MOTE_CLONES
 double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
                                     double bound_squared, mote_vec3 *p, mote_vec3 *q)
@@ -498,9 +556,14 @@ double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
     side st = classify(&fs, t, bound_squared);
     if (st.kind == SIDE_CLEAR)
         return bound_squared;
+    bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
+    if (doubtful) {
+        const int power = power_for(max2(largest_of(s, 3), largest_of(t, 3)));
+        if (power != 0)
+            return triangles_scaled(s, t, bound_squared, power, p, q);
+    }
     if (centres_separate(s, t, bound_squared))
         return bound_squared;
-    bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
     candidate c;
     if (doubtful || !face_decides(s, t, &fs, &ft, &ss, &st, &c))
         edge_candidate(s, t, &c);
@@ -525,8 +588,7 @@ double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_v
 }
 
 MOTE_CLONES
-double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
-                            mote_vec3 *q)
+static double segments(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p, mote_vec3 *q)
 {
     mote_vec3 s[3] = {a[0], a[1], a[0]}, t[3] = {b[0], b[1], b[0]};
     candidate c;
@@ -537,8 +599,23 @@ double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec
     return c.squared;
 }
 
+double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
+                            mote_vec3 *q)
+{
+    const int power = power_for(max2(largest_of(a, 2), largest_of(b, 2)));
+    if (power == 0)
+        return segments(a, b, p, q);
+    mote_vec3 c[2], d[2], x, y;
+    scale_all(a, 2, power, c);
+    scale_all(b, 2, power, d);
+    const double squared = unscaled_squared(segments(c, d, &x, &y), power);
+    set(p, scaled(x, -power));
+    set(q, scaled(y, -power));
+    return squared;
+}
+
 MOTE_CLONES
-double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
+static double point_and_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
 {
     face f = make_face(t);
     candidate c;
@@ -565,4 +642,17 @@ double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest
     }
     set(closest, c.q);
     return c.squared;
+}
+
+double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
+{
+    const int power = power_for(max2(mote_largest_coordinate(p), largest_of(t, 3)));
+    if (power == 0)
+        return point_and_triangle(p, t, closest);
+    mote_vec3 corner[3], x;
+    scale_all(t, 3, power, corner);
+    const double squared =
+        unscaled_squared(point_and_triangle(scaled(p, power), corner, &x), power);
+    set(closest, scaled(x, -power));
+    return squared;
 }

@@ -8,7 +8,9 @@
      The square of the distance between the returned points is the returned value, to the
      rounding of the points' own coordinates.
    - There is no absolute tolerance: coordinates times 2^k give exactly the same points times
-     2^k and the same value times 4^k, for magnitudes from 1e-30 to 1e30.
+     2^k and the same value times 4^k, for magnitudes from 1e-30 to 1e30. The other properties
+     hold for all that are finite: a value above the doubles is infinite, one below them but not
+     0 is the least double.
    - 0 is returned exactly, with equal points, where two triangles touch or intersect, or are
      apart by less than 4.5e-16 of their longest edge, which rounding cannot distinguish from
      touching.

@@ -37,8 +37,11 @@ double height(const Plane &plane, mote_vec3 point)
 
 mote_vec3 unit(mote_vec3 v)
 {
-    const double length = mote_length(v);
-    return length > 0 ? mote_scale(v, 1 / length) : mote_vec3_make(0, 0, 0);
+    const double largest = mote_largest_coordinate(v);
+    if (!(largest > 0))
+        return mote_vec3_make(0, 0, 0);
+    v = mote_vec3_make(v.x / largest, v.y / largest, v.z / largest); /* squares are numbers */
+    return mote_scale(v, 1 / mote_length(v));
 }
 
 Plane plane_of(const Component &c, const std::array<uint32_t, 3> &face)

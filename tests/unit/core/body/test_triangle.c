@@ -152,7 +152,7 @@ static void scale_triangle(const mote_vec3 t[3], double scale, mote_vec3 scaled[
 TEST(triangle_triangle_power_of_two_scale_same_bits)
 {
     uint64_t seed = 3;
-    const int exponents[] = {-120, -40, -7, 1, 13, 40, 120};
+    const int exponents[] = {-480, -333, -200, -120, -40, -7, 1, 13, 40, 120, 200, 333, 480};
     for (int i = 0; i < 20000; i++) {
         mote_vec3 s[3], t[3], a[3], b[3], p, q, x, y;
         pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
@@ -169,6 +169,46 @@ TEST(triangle_triangle_power_of_two_scale_same_bits)
         assert_true(mote_point_triangle(a[0], b, NULL) == point * scale * scale);
         double segment = mote_segment_segment(s, t, NULL, NULL);
         assert_true(mote_segment_segment(a, b, NULL, NULL) == segment * scale * scale);
+    }
+}
+
+/* Squares of the distance leave the range of doubles; whether there is contact does not. */
+TEST(closed_forms_at_the_ends_of_doubles_touch_or_do_not)
+{
+    for (size_t i = 0; i < COUNT(closed_forms); i++) {
+        for (int power = -1000; power <= 1000; power += 40) {
+            const double scale = ldexp(1, power);
+            mote_vec3 s[3], t[3];
+            scale_triangle(floor_triangle, scale, s);
+            scale_triangle(closed_forms[i].t, scale, t);
+            const double squared = mote_triangle_triangle(s, t, NULL, NULL);
+            test_row("%s, times 2^%d", closed_forms[i].name, power);
+            assert_true((squared > 0) == (closed_forms[i].squared > 0));
+            if (4 * squared < HUGE_VAL)
+                assert_true(mote_triangle_triangle_below(s, t, 4 * squared, NULL, NULL) ==
+                            squared);
+        }
+    }
+}
+
+/* A face so small that its normal hardly is a number is not told apart by it. */
+TEST(triangle_triangle_below_of_a_tiny_and_a_large_face_finds_what_is_below)
+{
+    uint64_t seed = 7;
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_make(PAIR_GENERAL, s, t, &seed);
+        const mote_vec3 to_origin = mote_scale(t[0], -1);
+        pair_move(s, to_origin);
+        pair_move(t, to_origin);
+        scale_triangle(t, ldexp(1, -230 - i % 50), t);
+        const double truth = mote_triangle_triangle(s, t, NULL, NULL);
+        for (int swap = 0; swap < 2; swap++) {
+            const double bound = truth * 1.01 + 0x1p-1000;
+            const double below = swap ? mote_triangle_triangle_below(t, s, bound, NULL, NULL)
+                                      : mote_triangle_triangle_below(s, t, bound, NULL, NULL);
+            assert_true(fabs(sqrt(below) - sqrt(truth)) <= 1e-14 * pair_extent(s, t, 1));
+        }
     }
 }
 

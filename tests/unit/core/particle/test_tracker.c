@@ -181,6 +181,31 @@ TEST(contact_question_as_the_distance_says)
     scene_free(&s);
 }
 
+/* Contacts that begin after leaps, where only pairs that touch are looked for. */
+TEST(contact_question_with_no_tolerance_as_the_distance_says)
+{
+    scene s;
+    scene_init(&s, 30, 12, 1, true);
+    method_run distance, contact;
+    tracker_init(&distance, &s, MOTE_ASK_DISTANCE, 0, "n=8,launch=8");
+    tracker_init(&contact, &s, MOTE_ASK_CONTACT, 0, "n=8,launch=8");
+    int contacts = 0, found = 0, false_ones = 0;
+    for (int i = 0; i < 300; ++i) {
+        const mote_frame *frame = scene_next(&s, 1.2, false);
+        const mote_answer a = method_run_ask(&distance, frame);
+        const mote_answer b = method_run_ask(&contact, frame);
+        contacts += a.contact;
+        found += a.contact && b.contact;
+        false_ones += b.contact && scene_truth(&s) > 0;
+    }
+    assert_in_range(contacts, 60, 290);
+    assert_true(found >= 0.97 * contacts);
+    assert_int_equal(false_ones, 0);
+    method_run_free(&distance);
+    method_run_free(&contact);
+    scene_free(&s);
+}
+
 TEST(query_warm_no_allocation)
 {
     scene s;

@@ -106,13 +106,13 @@ TEST(query_positions_far_below_the_unit_are_exact)
         for (int k = 0; k < 6; ++k) {
             test_row("size %g, frame %d", sizes[i], k);
             scene_next(&s, 1.4, false);
+            const double truth = sizes[i] * scene_truth(&s);
             for (int b = 0; b < 2; ++b) {
                 for (uint32_t v = 0; v < s.mesh[b]->vertex_count; ++v)
                     s.world[b][v] = mote_scale(s.world[b][v], sizes[i]);
             }
             const mote_stream_frame frame = positions_of(&s);
             const mote_certificate_answer a = stream_answer(stream, &frame, -1);
-            const double truth = scene_truth(&s);
             assert_true(fabs(a.distance - truth) <= allowed);
             assert_true(a.lower <= truth && a.lower >= truth - allowed);
         }
