@@ -45,7 +45,13 @@ typedef struct face {
     double squared_edges; /* |e1|^2 + |e2|^2 */
 } face;
 
-typedef enum side_kind { SIDE_CLEAR, SIDE_ONE, SIDE_BOTH, SIDE_DOUBTFUL } side_kind;
+typedef enum side_kind {
+    SIDE_CLEAR,
+    SIDE_ONE,
+    SIDE_BOTH,
+    SIDE_DOUBTFUL,
+    SIDE_BEYOND /* doubtful, since products may leave the range of doubles */
+} side_kind;
 
 /* On which side of the plane of one triangle the vertices of the other lie. */
 typedef struct side {
@@ -420,7 +426,7 @@ static inline bool surely_beyond(double squared, double other, double error_squa
    SIDE_BOTH: on both sides beyond rounding. Else SIDE_DOUBTFUL. */
 static inline side classify(const face *f, const mote_vec3 v[3], double bound_squared)
 {
-    side r = {.kind = SIDE_DOUBTFUL};
+    side r = {.kind = SIDE_BEYOND};
     double ww = 0;
     for (int k = 0; k < 3; k++) {
         mote_vec3 w = mote_sub(v[k], f->o);
@@ -430,6 +436,7 @@ static inline side classify(const face *f, const mote_vec3 v[3], double bound_sq
     double error_squared = HEIGHT_ERROR * HEIGHT_ERROR * f->ee * ww;
     if (!(error_squared > 0x1p-800 && error_squared < 0x1p800 && f->nn > 0x1p-900))
         return r;
+    r.kind = SIDE_DOUBTFUL;
     double h0 = fabs(r.h[0]), h1 = fabs(r.h[1]), h2 = fabs(r.h[2]);
     bool one = (r.h[0] > 0) == (r.h[1] > 0) && (r.h[0] > 0) == (r.h[2] > 0);
     r.lowest = h0 <= h1 ? (h0 <= h2 ? 0 : 2) : (h1 <= h2 ? 1 : 2);
@@ -556,14 +563,14 @@ double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
     side st = classify(&fs, t, bound_squared);
     if (st.kind == SIDE_CLEAR)
         return bound_squared;
-    bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
-    if (doubtful) {
+    if (ss.kind == SIDE_BEYOND || st.kind == SIDE_BEYOND) {
         const int power = power_for(max2(largest_of(s, 3), largest_of(t, 3)));
         if (power != 0)
             return triangles_scaled(s, t, bound_squared, power, p, q);
     }
     if (centres_separate(s, t, bound_squared))
         return bound_squared;
+    const bool doubtful = ss.kind >= SIDE_DOUBTFUL || st.kind >= SIDE_DOUBTFUL;
     candidate c;
     if (doubtful || !face_decides(s, t, &fs, &ft, &ss, &st, &c))
         edge_candidate(s, t, &c);
