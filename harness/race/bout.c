@@ -117,12 +117,14 @@ static mote_status hear_opened(contest *c, const mote_race_cell *cell, int side,
         !mote_read_unsigned(frame, cell->first, UINT32_MAX, &last))
         return unreadable(racer);
     *print = strtoull(fingerprint, &end, 16);
-    if (*end != '\0' || (c->frames > 0 && c->frames != (uint32_t)last - cell->first + 1))
-        return *end ? unreadable(racer)
-                    : mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
+    if (*end != '\0')
+        return unreadable(racer);
+    ++c->bout->cells[side]; /* the racer has it, whatever is made of it here */
+    const uint32_t frames = (uint32_t)last - cell->first + 1;
+    if (c->frames > 0 && c->frames != frames)
+        return mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
     c->first = cell->first;
-    c->frames = (uint32_t)last - cell->first + 1;
-    ++c->bout->cells[side];
+    c->frames = frames;
     return MOTE_OK;
 }
 

@@ -50,19 +50,29 @@ static int put_good(void)
 
 TEST_EACH(put_good, NULL);
 
-/* Runs a bout of two programs in this folder. */
-static mote_status fight(const char *a, const char *b, mote_bout_result *result)
+/* Runs a bout of two programs in this folder, over a cell of each scenario [count]. */
+static mote_status fight_over(const char *a, const char *b, const char *const *scenarios,
+                              size_t count, mote_bout_result *results)
 {
     mote_random random = {5};
     mote_bout bout;
-    const mote_race_cell cell = {.scenario = "s", .method = "m", .first = 1, .seed = 1};
     const mote_bout_options options = {
         .program = {a, b}, .core = -1, .timeout = 20, .check_scene = true, .random = &random};
     mote_status status = mote_bout_start(&options, &bout);
-    if (status == MOTE_OK)
-        status = mote_bout_run(&bout, &cell, result);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        const mote_race_cell cell = {
+            .scenario = scenarios[i], .method = "m", .first = 1, .seed = 1};
+        status = mote_bout_run(&bout, &cell, &results[i]);
+    }
     mote_bout_stop(&bout);
     return status;
+}
+
+/* The same of one cell. */
+static mote_status fight(const char *a, const char *b, mote_bout_result *result)
+{
+    static const char *const scenario[] = {"s"};
+    return fight_over(a, b, scenario, 1, result);
 }
 
 TEST(an_answer_that_is_wrong_ends_the_bout_and_names_its_side)
@@ -139,6 +149,33 @@ TEST(racers_of_other_scenes_are_not_compared)
     assert_true(result.side[MOTE_RACE_B].refused);
     assert_string_equal(result.side[MOTE_RACE_B].reason,
                         "the scenario has another number of frames");
+}
+
+/* Racers number the cells that they opened, those that are then left out as well. */
+TEST(a_cell_of_other_frames_does_not_shift_those_after_it)
+{
+    static const char *const scenarios[] = {"longer", "s", "longer", "s"};
+    static const script numbered = {
+        .cell =
+            "case $line in *longer*) say 'ok\\t0\\t1\\t3' ;; *) say 'ok\\t0\\t1\\t2' ;; esac",
+        .run = "set -- $line; [ $(($2 % 2)) = 1 ] && say 'ok\\t1\\t-\\t" TIMES
+               "' || say 'no\\tcell of another scenario'"};
+    put_racer("numbered", numbered);
+    for (int side = MOTE_RACE_A; side <= MOTE_RACE_B; ++side) {
+        mote_bout_result results[ROWS_OF(scenarios)];
+        const char *const programs[] = {side == MOTE_RACE_A ? "./numbered" : "./good",
+                                        side == MOTE_RACE_A ? "./good" : "./numbered"};
+        test_row("side %d", side);
+        assert_int_equal(
+            fight_over(programs[0], programs[1], scenarios, ROWS_OF(scenarios), results),
+            MOTE_OK);
+        for (size_t i = 0; i < ROWS_OF(scenarios); ++i) {
+            const mote_race_side *sides = results[i].side;
+            assert_true(sides[MOTE_RACE_B].refused == (i % 2 == 0));
+            assert_false(sides[MOTE_RACE_A].refused);
+            assert_int_equal(results[i].frames, i % 2 == 0 ? 0 : 2);
+        }
+    }
 }
 
 TEST(a_bout_adds_counts_and_compares_answers)
