@@ -8,7 +8,7 @@
 #include "harness/run/plan.h"
 
 typedef struct mote_replicates {
-    const mote_subject *subject; /* with its fingerprint */
+    const mote_subject *subject; /* with its hashes */
     const char *scenario;        /* its displayed name */
     const mote_choices *choices;
     mote_simulation_options options;

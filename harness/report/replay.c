@@ -122,6 +122,16 @@ static bool is_shown(const mote_summary_row *row)
            !strstr(row->label, "positions=given");
 }
 
+/* The file of the truth; older versions did not name the faces in it. */
+static char *truth_path(const char *directory, const mote_replay_scene *scene,
+                        uint64_t fingerprint)
+{
+    return scene->tracks[0].cell->faces[0]
+               ? mote_truth_path(directory, scene->scenario, fingerprint)
+               : mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scene->scenario->name,
+                             fingerprint);
+}
+
 /* Reads the truth from the tracks' cells, and its points from the truth's own file if that
    exists. */
 static void read_truth(const mote_report *report, mote_replay_scene *scene)
@@ -141,8 +151,7 @@ static void read_truth(const mote_report *report, mote_replay_scene *scene)
     }
     uint64_t fingerprint = strtoull(scene->tracks[0].cell->fingerprint, NULL, 16);
     mote_truth *truth = NULL;
-    char *path = mote_format("%s/truth/%s-%016" PRIx64 ".csv", report->directory,
-                             scene->scenario->name, fingerprint);
+    char *path = truth_path(report->directory, scene, fingerprint);
     const mote_status status = mote_truth_read(scene->scenario, fingerprint, path, &truth);
     free(path);
     if (status != MOTE_OK) {

@@ -502,6 +502,13 @@ const mote_column mote_columns[] = {
            "iterations", "median", mote_show_count, 30),
     IMPACT(iterations_p95, false, "moments", "Their 95th percentile", "iterations", "p95",
            mote_show_count, 31),
+    {.key = "faces",
+     .csv = "faces",
+     .optional = true,
+     .unit = "",
+     .meaning = "Hash of the triangles, which `fingerprint` does not cover. Left out where an "
+                "older cell does not say",
+     AT(faces)},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

@@ -47,13 +47,21 @@ static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
     return true;
 }
 
-/* Whether two rows have the same configuration. */
+/* Whether two texts are equal, as far as both are known. */
+static bool agree(const char *a, const char *b)
+{
+    return a[0] == '\0' || b[0] == '\0' || strcmp(a, b) == 0;
+}
+
+/* Whether two rows have the same configuration. What an older run does not say is taken for
+   what the other one says. */
 static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->scenario, b->scenario) == 0 &&
-           strcmp(a->fingerprint, b->fingerprint) == 0 && strcmp(a->method, b->method) == 0 &&
-           strcmp(a->cache, b->cache) == 0 && a->stride == b->stride && a->seed == b->seed &&
-           a->frames == b->frames && has_parameters(a, b) && has_parameters(b, a);
+           strcmp(a->fingerprint, b->fingerprint) == 0 && agree(a->faces, b->faces) &&
+           strcmp(a->method, b->method) == 0 && strcmp(a->cache, b->cache) == 0 &&
+           a->stride == b->stride && a->seed == b->seed && a->frames == b->frames &&
+           has_parameters(a, b) && has_parameters(b, a);
 }
 
 /* The row with the same configuration, preferably on the same machine. */

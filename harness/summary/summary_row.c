@@ -404,6 +404,8 @@ int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
     if (order == 0)
         order = strcmp(a->fingerprint, b->fingerprint);
     if (order == 0)
+        order = strcmp(a->faces, b->faces);
+    if (order == 0)
         order = strcmp(a->ask, b->ask);
     if (order == 0)
         order = (a->step > b->step) - (a->step < b->step);
@@ -472,6 +474,7 @@ static void describe(mote_summary_row *row)
     const mote_stored_cell *cell = row->first;
     row->scenario = cell->scenario;
     row->fingerprint = cell->fingerprint;
+    row->faces = cell->faces;
     row->cache = cell->cache;
     row->machine = cell->machine;
     row->ask = cell->ask;

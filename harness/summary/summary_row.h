@@ -77,7 +77,7 @@ struct mote_summary_row {
                                 MOTE_CELL_STATUSES if a summary.json names none of these */
     bool given;              /* positions=given: its own time excludes deformation */
 
-    const char *scenario, *fingerprint, *cache, *machine, *ask, *method;
+    const char *scenario, *fingerprint, *faces, *cache, *machine, *ask, *method;
     char *label; /* "particle-paper:n=5": parameters that are not default */
     char *
         scene; /* "ww", or "ww (scene 0123abcd)" where another of that name is in the summary */
@@ -160,9 +160,9 @@ bool mote_summary_row_measured(const mote_summary_row *row);
 bool mote_summary_contacts_right(const mote_summary_row *row);
 bool mote_summary_row_right(const mote_summary_row *row);
 
-/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question, its
-   step and its tolerance. 0:
-   the same frames and question on one machine. Different scenes are never compared. */
+/* The order of scenes: by scenario, caches (hot first), machine, fingerprint, faces and
+   question, its step and its tolerance. 0: the same frames and question on one machine.
+   Different scenes are never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);
 
 /* The same, and then by the frames requested: earlier start first, then longer. */
