@@ -2,6 +2,7 @@
 
 #include "harness/base/record.h"
 #include "harness/process/spawn.h"
+#include "harness/run/own_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,16 +20,11 @@ static double count_of(const char *program, const mote_race_row *row, const char
     const uint32_t most = row->cell->first + INSTRUCTION_FRAMES - 1;
     const uint32_t last = row->cell->first + row->frames - 1;
     char *frames = mote_format("%u-%u", row->cell->first, last < most ? last : most);
-    const char *const argv[] = {program,
-                                "instructions",
-                                row->cell->scenario,
-                                "--frames",
-                                frames,
-                                "--method",
-                                row->cell->method,
-                                "--out",
-                                folder,
-                                NULL};
+    enum { WORDS = 8 };
+    const char *const words[WORDS] = {"instructions", row->cell->scenario, "--frames", frames,
+                                      "--method",     row->cell->method,   "--out",    folder};
+    const char *argv[1 + WORDS + MOTE_OWN_WORDS_MAX + 1] = {program};
+    argv[mote_own_words_add(words, WORDS, argv, 1)] = NULL;
     json_t *counted = NULL;
     double per_frame = MOTE_NONE;
     if (mote_spawn_quiet(argv, NULL) == MOTE_OK &&

@@ -1,8 +1,8 @@
 #include "harness/run/instructions.h"
 
 #include "harness/run/measure.h"
+#include "harness/run/own_words.h"
 #include "harness/base/record.h"
-#include "harness/process/plugin.h"
 #include "harness/process/spawn.h"
 
 #include <stdio.h>
@@ -124,24 +124,13 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
-        enum { WORDS = 13 };
-        const char *argv[WORDS + 2 * MOTE_PLUGINS_MAX + 1] = {"valgrind",
-                                                              "--tool=callgrind",
-                                                              "--quiet",
-                                                              option,
-                                                              "--toggle-collect=timed_*",
-                                                              program,
-                                                              "instructions",
-                                                              scenario,
-                                                              "--frames",
-                                                              frames,
-                                                              "--method",
-                                                              method,
-                                                              "--inside"};
-        for (size_t k = 0; mote_plugin_path(k); ++k) {
-            argv[WORDS + 2 * k] = "--plugin";
-            argv[WORDS + 2 * k + 1] = mote_plugin_path(k);
-        }
+        enum { BEFORE = 6, WORDS = 7 };
+        const char *const words[WORDS] = {"instructions", scenario, "--frames", frames,
+                                          "--method",     method,   "--inside"};
+        const char *argv[BEFORE + WORDS + MOTE_OWN_WORDS_MAX + 1] = {
+            "valgrind", "--tool=callgrind",         "--quiet",
+            option,     "--toggle-collect=timed_*", program};
+        argv[mote_own_words_add(words, WORDS, argv, BEFORE)] = NULL;
         status = mote_spawn(argv, NULL, NULL, 0);
     }
     if (status == MOTE_OK)
