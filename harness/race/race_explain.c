@@ -76,13 +76,14 @@ static void say_change(mote_text *text, const char *name, double a, double b)
 
 static void say_answers(mote_text *text, const mote_race_row *row)
 {
+    const char *unit = strcmp(row->scene.ask, "impact") == 0 ? "of the question's time" : "L";
     if (row->worst > MOTE_RACE_EXACT && isfinite(row->worst))
-        mote_text_add(text, "answers differ by up to %.2g L, at frame %u", row->worst,
+        mote_text_add(text, "answers differ by up to %.2g %s, at frame %u", row->worst, unit,
                       row->worst_frame);
     else if (row->worst > MOTE_RACE_EXACT)
         mote_text_add(text, "answers differ: contact or none, at frame %u", row->worst_frame);
     else if (row->worst > 0)
-        mote_text_add(text, "answers differ by rounding (%.2g L)", row->worst);
+        mote_text_add(text, "answers differ by rounding (%.2g %s)", row->worst, unit);
 }
 
 /* Says why the time changed, as far as counts and instructions show it. */

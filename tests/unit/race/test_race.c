@@ -372,3 +372,27 @@ TEST(racers_load_libraries)
                 MOTE_PROGRAM, MOTE_PROGRAM, MOTE_RACE_PLUGIN);
     assert_null(strstr(said, "unknown method"));
 }
+
+/* A row says which frames it is about where another one has the same name, and its JSON what it
+   was asked. */
+TEST(rows_of_other_frames_have_names_of_their_own)
+{
+    mote_expect(0, SCENARIO "@1-9/aabb-tree/hot",
+                "race %s %s " SCENARIO "@1-9 " SCENARIO "@11-20 " SCENARIO
+                " --method aabb-tree "
+                "--budget 60 --until 50%% --real 50%% --out race.json",
+                MOTE_PROGRAM, MOTE_PROGRAM);
+    assert_non_null(strstr(said, SCENARIO "@11-20/aabb-tree/hot"));
+    assert_non_null(strstr(said, SCENARIO "/aabb-tree/hot"));
+    char *json = file_text("race.json");
+    static const char *const wanted[] = {"\"asked\": \"1-9 distance\"",
+                                         "\"asked\": \"11-20 distance\"",
+                                         "\"asked\": \"1-60 distance\""};
+    for (size_t i = 0; i < ROWS_OF(wanted); ++i)
+        assert_int_equal(test_count(json, wanted[i]), 1);
+    free(json);
+    mote_expect(0, SCENARIO "/aabb-tree/hot",
+                "race %s %s " SCENARIO "@1-9 --method aabb-tree "
+                "--budget 60 --until 50%% --real 50%%",
+                MOTE_PROGRAM, MOTE_PROGRAM);
+}
