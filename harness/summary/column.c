@@ -105,7 +105,8 @@
             compared,                                                                          \
             SAME,                                                                              \
             ROUNDING,                                                                          \
-            false                                                                              \
+            false,                                                                             \
+            true                                                                               \
         }                                                                                      \
     }
 
@@ -117,7 +118,8 @@
             compared,                                                                          \
             SAME,                                                                              \
             0,                                                                                 \
-            false                                                                              \
+            false,                                                                             \
+            true                                                                               \
         }                                                                                      \
     }
 
@@ -129,6 +131,7 @@
             compared,                                                                          \
             HEAP_SHARE,                                                                        \
             0,                                                                                 \
+            false,                                                                             \
             false                                                                              \
         }                                                                                      \
     }
@@ -260,7 +263,7 @@ const mote_column mote_columns[] = {
      .brief = "exact",
      .show = mote_show_percent,
      .place = PLACE(40, 40, 40),
-     .rule = {"inexact rate", SAME, 0, true}},
+     .rule = {"inexact rate", SAME, 0, true, true}},
     {.object = "error",
      .key = "exact_rate_separated",
      .type = MOTE_COLUMN_REAL,
@@ -298,7 +301,7 @@ const mote_column mote_columns[] = {
      .unit = "processes",
      .meaning = "How many did not run to their end; no value of the row includes them",
      AT(failed),
-     .rule = {"failed replicates", 0, 0, false}},
+     .rule = {"failed replicates", 0, 0, false, false}},
     {.key = "jobs",
      .csv = "jobs",
      .type = MOTE_COLUMN_COUNT,
@@ -509,6 +512,15 @@ const mote_column mote_columns[] = {
      .meaning = "Hash of the triangles, which `fingerprint` does not cover. Left out where an "
                 "older cell does not say",
      AT(faces)},
+    {.key = "seeds",
+     .csv = "seeds",
+     .optional = true,
+     .unit = "",
+     .meaning =
+         "`own` if each replicate draws random numbers of its own, `fixed` if all draw the "
+         "same (`--fixed-seed`). Left out where an older cell does not say",
+     AT(seeds),
+     .schema = "{\"enum\": [\"own\", \"fixed\"]}"},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

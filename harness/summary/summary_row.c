@@ -468,6 +468,12 @@ static double all_vertices(const mote_summary_row *row)
     return total > 0 ? total : (double)row->vertices[0] + (double)row->vertices[1];
 }
 
+static const char *seeds_of(const mote_stored_cell *cell)
+{
+    const json_t *fixed = json_object_get(cell->json, "fixed_seed");
+    return !fixed ? "" : json_is_true(fixed) ? "fixed" : "own";
+}
+
 /* Fills in what was measured, from the row's first cell. */
 static void describe(mote_summary_row *row)
 {
@@ -486,6 +492,7 @@ static void describe(mote_summary_row *row)
     row->given = is_given(cell);
     row->accounting = row->given ? "given" : "charged";
     row->told = mote_text_at(cell->json, "told");
+    row->seeds = seeds_of(cell);
     row->parameters = cell->parameters;
     row->n = mote_number_at(cell->parameters, "n");
     row->tolerance = mote_stored_number(cell, "tolerance");
@@ -503,6 +510,12 @@ static void describe(mote_summary_row *row)
     row->shapes = shapes >= 1 && shapes <= MOTE_BODIES_MAX ? (uint32_t)shapes : 0;
     row->near_pairs_wanted = mote_stored_number(cell, "near_pairs_wanted");
     row->frames = cell->frames;
+}
+
+void mote_summary_row_answers(mote_summary_row *row)
+{
+    count_contacts(row);
+    make_error(row, &row->error);
 }
 
 mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates)
@@ -524,11 +537,10 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
     const double vertices = all_vertices(&made);
     made.heap_bytes_per_vertex = vertices > 0 ? made.heap_live_bytes / vertices : MOTE_NONE;
-    count_contacts(&made);
+    mote_summary_row_answers(&made);
     make_counts(&made);
     make_processes(&made);
     make_times(&made);
-    make_error(&made, &made.error);
     make_impact(&made);
     return made;
 }

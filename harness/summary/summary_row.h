@@ -84,6 +84,7 @@ struct mote_summary_row {
     const char *ending, *reason; /* the status as text; why it is not ok */
     const char *accounting;      /* "charged" or "given" */
     const char *told;            /* "field" or "positions"; "" if the cell does not store it */
+    const char *seeds;           /* "own" or "fixed"; "" if the cell does not store it */
     json_t *parameters;          /* owned by the cell or the summary.json */
     double n, tolerance;         /* the parameter n; the scenario's tolerance */
     uint64_t seed;
@@ -130,6 +131,9 @@ struct mote_summary_row {
 
 /* Makes a row from its cells [replicates], without the ratios. */
 mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates);
+
+/* Sets a row's errors and contacts from its cells, of which `finished` succeeded. */
+void mote_summary_row_answers(mote_summary_row *row);
 
 /* The part of a frame's time that is compared: all of it, or all but deformation. */
 typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
