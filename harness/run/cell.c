@@ -60,6 +60,8 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
                   cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
                   program);
+    if (facts.active.first > 0)
+        mote_text_add(&text, " active %u-%u", facts.active.first, facts.active.last);
     if (cell->step > 0)
         mote_text_add(&text, " step %u", cell->step);
     if (cell->jobs > 1)

@@ -521,6 +521,14 @@ const mote_column mote_columns[] = {
          "same (`--fixed-seed`). Left out where an older cell does not say",
      AT(seeds),
      .schema = "{\"enum\": [\"own\", \"fixed\"]}"},
+    {.key = "active",
+     .type = MOTE_COLUMN_COUNTS,
+     .optional = true,
+     .unit = "",
+     .meaning =
+         "First and last frame of the active interval, of which `active_total_ns` is; 0 if "
+         "there is none",
+     AT(active)},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

@@ -242,12 +242,14 @@ static char *group_name(const mote_stored_cell *cell)
 {
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
-    char *group = mote_format(
-        "%s %s %s %s %s %s %s %s %.17g step %u stride %u seed %" PRIu64 " on %s%s%s",
-        cell->scenario, cell->cache, cell->method, parameters, cell->fingerprint, cell->faces,
-        frames, cell->ask, mote_stored_number(cell, "tolerance"), cell->step, cell->stride,
-        cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
-        json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
+    char *group =
+        mote_format("%s %s %s %s %s %s %s %s %.17g step %u stride %u seed %" PRIu64
+                    " active %u-%u on %s%s%s",
+                    cell->scenario, cell->cache, cell->method, parameters, cell->fingerprint,
+                    cell->faces, frames, cell->ask, mote_stored_number(cell, "tolerance"),
+                    cell->step, cell->stride, cell->seed, cell->active_first, cell->active_last,
+                    cell->machine, cell->jobs > 1 ? " jobs" : "",
+                    json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
     return group;

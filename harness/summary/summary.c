@@ -166,7 +166,8 @@ static void make_rows(mote_summary *summary)
    one name. */
 static char *name_scene(const mote_summary *summary, const mote_summary_row *row)
 {
-    bool scenes = false, faces = false, questions = false, steps = false, tolerances = false;
+    bool scenes = false, faces = false, intervals = false, questions = false, steps = false,
+         tolerances = false;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (strcmp(other->scenario, row->scenario) != 0)
@@ -174,6 +175,7 @@ static char *name_scene(const mote_summary *summary, const mote_summary_row *row
         const double a = row->tolerance, b = other->tolerance;
         scenes = scenes || strcmp(other->fingerprint, row->fingerprint) != 0;
         faces = faces || strcmp(other->faces, row->faces) != 0;
+        intervals = intervals || mote_summary_by_interval(row, other) != 0;
         steps = steps || (row->step > 0 && row->step != other->step);
         questions = questions || strcmp(other->ask, row->ask) != 0;
         tolerances = tolerances || a < b || a > b || (a == a) != (b == b);
@@ -185,6 +187,8 @@ static char *name_scene(const mote_summary *summary, const mote_summary_row *row
     else if (faces)
         mote_text_add(&text, " (faces %.*s)", SHOWN_DIGITS,
                       row->faces[0] ? row->faces : "unknown");
+    if (intervals)
+        mote_text_add(&text, " (active %u-%u)", row->active[0], row->active[1]);
     if (questions)
         mote_text_add(&text, " (asks for %s)", row->ask[0] ? row->ask : "anything");
     if (steps)

@@ -394,6 +394,15 @@ static int by_number(double a, double b)
     return (a == a) - (b == b);
 }
 
+int mote_summary_by_interval(const mote_summary_row *a, const mote_summary_row *b)
+{
+    for (int k = 0; k < 2 && a->bodies == 0; ++k) {
+        if (a->active[k] != b->active[k])
+            return a->active[k] < b->active[k] ? -1 : 1;
+    }
+    return 0;
+}
+
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
 {
     int order = strcmp(a->scenario, b->scenario);
@@ -405,6 +414,8 @@ int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
         order = strcmp(a->fingerprint, b->fingerprint);
     if (order == 0)
         order = strcmp(a->faces, b->faces);
+    if (order == 0)
+        order = mote_summary_by_interval(a, b);
     if (order == 0)
         order = strcmp(a->ask, b->ask);
     if (order == 0)
@@ -499,6 +510,8 @@ static void describe(mote_summary_row *row)
     row->seed = cell->seed;
     row->frame_range[0] = cell->first;
     row->frame_range[1] = cell->last;
+    row->active[0] = cell->active_first;
+    row->active[1] = cell->active_last;
     row->stride = cell->stride;
     row->step = cell->step;
     row->jobs = cell->jobs;

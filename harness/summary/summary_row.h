@@ -89,6 +89,7 @@ struct mote_summary_row {
     double n, tolerance;         /* the parameter n; the scenario's tolerance */
     uint64_t seed;
     uint32_t frame_range[2]; /* first and last of the frames requested */
+    uint32_t active[2];      /* the active interval; 0, 0: none */
     uint32_t stride, jobs;   /* jobs: cells that ran at the same time */
     uint32_t step;           /* frames that a question about impacts spans; 0: of others */
     uint32_t triangles[2], vertices[2];
@@ -164,9 +165,13 @@ bool mote_summary_row_measured(const mote_summary_row *row);
 bool mote_summary_contacts_right(const mote_summary_row *row);
 bool mote_summary_row_right(const mote_summary_row *row);
 
-/* The order of scenes: by scenario, caches (hot first), machine, fingerprint, faces and
-   question, its step and its tolerance. 0: the same frames and question on one machine.
-   Different scenes are never compared. */
+/* The order by active intervals. Those of more than two bodies follow from the frames, and are
+   equal. */
+int mote_summary_by_interval(const mote_summary_row *a, const mote_summary_row *b);
+
+/* The order of scenes: by scenario, caches (hot first), machine, fingerprint, faces,
+   active interval and question, its step and its tolerance. 0: the same frames and question on
+   one machine. Different scenes are never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);
 
 /* The same, and then by the frames requested: earlier start first, then longer. */
