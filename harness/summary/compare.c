@@ -471,6 +471,8 @@ static const json_t *find_counted(const json_t *counted, const mote_summary_row 
     MOTE_EACH(i, other, json_object_get(counted, "rows"))
     {
         if (strcmp(mote_text_at(other, "scenario"), row->scenario) == 0 &&
+            mote_compared_agree(mote_text_at(other, "fingerprint"), row->fingerprint) &&
+            mote_compared_agree(mote_text_at(other, "faces"), row->faces) &&
             strcmp(mote_text_at(other, "method"), row->method) == 0 &&
             json_equal(json_object_get(other, "parameters"), row->parameters) &&
             (!like || same_frames(other, like)))

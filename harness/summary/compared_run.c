@@ -115,8 +115,7 @@ static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
     return true;
 }
 
-/* Whether two texts are equal, as far as both are known. */
-static bool agree(const char *a, const char *b)
+bool mote_compared_agree(const char *a, const char *b)
 {
     return a[0] == '\0' || b[0] == '\0' || strcmp(a, b) == 0;
 }
@@ -136,10 +135,11 @@ bool mote_compared_same_range(const uint32_t a[2], const uint32_t b[2])
 static bool same_question(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->scenario, b->scenario) == 0 &&
-           strcmp(a->fingerprint, b->fingerprint) == 0 && agree(a->faces, b->faces) &&
-           a->stride == b->stride && a->frames == b->frames &&
-           mote_compared_same_range(a->frame_range, b->frame_range) && agree(a->ask, b->ask) &&
-           a->step == b->step && numbers_agree(a->tolerance, b->tolerance);
+           strcmp(a->fingerprint, b->fingerprint) == 0 &&
+           mote_compared_agree(a->faces, b->faces) && a->stride == b->stride &&
+           a->frames == b->frames && mote_compared_same_range(a->frame_range, b->frame_range) &&
+           mote_compared_agree(a->ask, b->ask) && a->step == b->step &&
+           numbers_agree(a->tolerance, b->tolerance);
 }
 
 bool mote_compared_same_method(const mote_summary_row *a, const mote_summary_row *b)
@@ -152,7 +152,8 @@ bool mote_compared_same_method(const mote_summary_row *a, const mote_summary_row
 static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
 {
     return same_question(a, b) && mote_compared_same_method(a, b) &&
-           strcmp(a->cache, b->cache) == 0 && a->seed == b->seed && agree(a->seeds, b->seeds);
+           strcmp(a->cache, b->cache) == 0 && a->seed == b->seed &&
+           mote_compared_agree(a->seeds, b->seeds);
 }
 
 const mote_summary_row *mote_compared_partner(const mote_summary *summary,

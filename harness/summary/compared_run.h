@@ -32,6 +32,9 @@ const mote_summary_row *mote_compared_partner(const mote_summary *summary,
    has its default there. */
 bool mote_compared_same_method(const mote_summary_row *a, const mote_summary_row *b);
 
+/* Whether two texts are equal, as far as both are known (not ""). */
+bool mote_compared_agree(const char *a, const char *b);
+
 /* Whether two ranges of frames are equal, as far as both are known. */
 bool mote_compared_same_range(const uint32_t a[2], const uint32_t b[2]);
 

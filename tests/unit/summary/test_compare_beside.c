@@ -106,7 +106,7 @@ TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
 
 /* A count that only one run has, or over other frames, is not compared, and this is
    reported. */
-TEST(compare_of_instructions_of_other_frames_is_undecided)
+TEST(compare_of_instructions_of_other_frames_or_scenes_is_undecided)
 {
     static const struct {
         const char *old_members, *new_members;
@@ -117,6 +117,9 @@ TEST(compare_of_instructions_of_other_frames_is_undecided)
                  {"{'frames': [1, 9]}", "{}", 3, "not counted over the same"},
                  {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
                  {"{}", "{'per_frame': null}", 3, "not counted over the same"},
+                 {"{}", "{'fingerprint': 'other'}", 3, "not counted over the same"},
+                 {"{'faces': 'a'}", "{'faces': 'b'}", 1, "instructions 1000 to 1100"},
+                 {"{'fingerprint': '0123456789abcdef'}", "{}", 1, "instructions 1000 to 1100"},
                  {"{'per_frame': null}", "{}", 0, "same or better"}};
     for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         write_run("old", &usual, 1);
