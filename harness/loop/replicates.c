@@ -175,8 +175,9 @@ static mote_status finish_task(void *context, size_t task, mote_child *child, do
     mote_simulation_result result;
     if (done)
         memcpy(&result, child->output, sizeof result);
-    else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EINVAL)
-        return mote_fail(MOTE_EINVAL, "%s", child->text);
+    else if (child->end == MOTE_CHILD_DONE &&
+             (child->status == MOTE_EINVAL || child->status == MOTE_ENOMEM))
+        return mote_fail(child->status, "%s", child->text);
     else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EUNSUPPORTED)
         how = "unsupported";
     (void)fprintf(stderr, "%s %s r%u: %s%s%s, %.1f s\n", w->plan->scenario,
