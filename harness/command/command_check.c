@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 typedef struct scenario_facts {
-    uint64_t fingerprint;
+    uint64_t fingerprint, faces;
     uint32_t contacts;        /* frames */
     uint32_t active_frames;   /* 0: the scenario names none */
     uint32_t active_contacts; /* frames of these */
@@ -45,14 +45,15 @@ static void gather_facts(const mote_scenario *scenario, const mote_truth *truth,
 
 static int print_json(const mote_scenario *scenario, const scenario_facts *facts)
 {
-    char fingerprint[32];
+    char fingerprint[32], faces[32];
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, facts->fingerprint);
+    (void)snprintf(faces, sizeof faces, "%016" PRIx64, facts->faces);
     json_t *root = json_pack(
-        "{s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:[i,i], s:[i,i]}", "scenario", scenario->name,
-        "fingerprint", fingerprint, "frames", scenario->frames, "checked", facts->checked,
-        "contacts", facts->contacts, "smallest", facts->smallest, "largest", facts->largest,
-        "active", scenario->active.first, scenario->active.last, "longest_active",
-        facts->longest.first, facts->longest.last);
+        "{s:s, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:[i,i], s:[i,i]}", "scenario",
+        scenario->name, "fingerprint", fingerprint, "faces", faces, "frames", scenario->frames,
+        "checked", facts->checked, "contacts", facts->contacts, "smallest", facts->smallest,
+        "largest", facts->largest, "active", scenario->active.first, scenario->active.last,
+        "longest_active", facts->longest.first, facts->longest.last);
     if (root && facts->active_frames > 0) {
         (void)json_object_set_new(root, "active_contacts",
                                   json_integer(facts->active_contacts));
@@ -66,6 +67,7 @@ static int print_json(const mote_scenario *scenario, const scenario_facts *facts
 static void print_lines(const mote_scenario *scenario, const scenario_facts *facts)
 {
     (void)printf("%s: fingerprint %016" PRIx64 "\n", scenario->name, facts->fingerprint);
+    (void)printf("%s: faces %016" PRIx64 "\n", scenario->name, facts->faces);
     (void)printf("%u frames, truth from %.4g to %.4g L, contact in %u (%.1f %%)\n",
                  scenario->frames, facts->smallest, facts->largest, facts->contacts,
                  100.0 * facts->contacts / scenario->frames);
@@ -101,7 +103,7 @@ static int check(const char *name, bool json, const char *directory)
     mote_scenario *scenario;
     if (mote_scenario_load(name, &scenario) != MOTE_OK)
         return mote_command_fail();
-    scenario_facts facts = {0};
+    scenario_facts facts = {.faces = mote_scenario_faces(scenario)};
     mote_truth *truth = NULL;
     mote_status status = find_truth(scenario, directory, &facts.fingerprint, &truth);
     int code;
@@ -135,13 +137,15 @@ static int check(const char *name, bool json, const char *directory)
 static int print_scene_json(const mote_subject *subject, const mote_scene_facts *facts)
 {
     const mote_bodies *bodies = subject->bodies;
-    char fingerprint[32];
+    char fingerprint[32], faces[32];
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, subject->fingerprint);
-    json_t *root = json_pack(
-        "{s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:f}", "scenario", bodies->name, "fingerprint",
-        fingerprint, "bodies", (json_int_t)bodies->count, "frames", (json_int_t)bodies->frames,
-        "checked", (json_int_t)facts->checked, "contacts", (json_int_t)facts->contacts,
-        "pair_contacts", (json_int_t)facts->pair_contacts, "near_pairs", facts->near_pairs);
+    (void)snprintf(faces, sizeof faces, "%016" PRIx64, subject->faces);
+    json_t *root = json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:f}", "scenario",
+                             bodies->name, "fingerprint", fingerprint, "faces", faces, "bodies",
+                             (json_int_t)bodies->count, "frames", (json_int_t)bodies->frames,
+                             "checked", (json_int_t)facts->checked, "contacts",
+                             (json_int_t)facts->contacts, "pair_contacts",
+                             (json_int_t)facts->pair_contacts, "near_pairs", facts->near_pairs);
     return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
                                                                   : mote_command_fail();
 }
@@ -163,6 +167,7 @@ static int check_scene(const char *name, bool json)
     } else if (status == MOTE_OK) {
         const mote_bodies *bodies = subject.bodies;
         (void)printf("%s: fingerprint %016" PRIx64 "\n", bodies->name, subject.fingerprint);
+        (void)printf("%s: faces %016" PRIx64 "\n", bodies->name, subject.faces);
         (void)printf("%u bodies, %u frames, %.4g near pairs a frame, contact in %u frames\n",
                      bodies->count, bodies->frames, facts.near_pairs, facts.contacts);
         (void)printf("%u near pairs checked by brute force\n", facts.checked);

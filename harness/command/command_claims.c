@@ -15,7 +15,9 @@ int mote_command_claims(int argc, char **argv)
     if (status == MOTE_OK)
         status = mote_claims_measure(&study, &met);
     mote_study_close(&study);
-    if (status != MOTE_OK)
-        return mote_command_fail();
+    if (status != MOTE_OK) {
+        const int code = mote_command_fail();
+        return study.cell_failed && code == MOTE_EXIT_BAD_INPUT ? MOTE_EXIT_CELL_FAILED : code;
+    }
     return mote_command_finish(met ? MOTE_EXIT_DONE : MOTE_EXIT_CHECK_FAILED);
 }

@@ -67,7 +67,7 @@ static int print_help(void)
         "  --allow DIR  scenario files may name files below DIR as well (default: those\n"
         "               of their own folder only); may be repeated\n"
         "  --strict     refuse edges of more than two faces (default: cut them apart)\n"
-        "With any command but race:\n"
+        "With any command:\n"
         "  --plugin FILE  methods and fields of a shared library (docs/extending.md); may\n"
         "               be repeated\n"
         "-- ends the options: what follows are names, even if they begin with a dash.\n");

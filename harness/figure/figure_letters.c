@@ -45,7 +45,7 @@ static char *find_directory(const char *run)
 /* Reads the cell, its contacts and its bodies, which must be those that were measured. */
 static mote_status read_film(film *f)
 {
-    char *path = mote_format("%s/letters.json", f->directory), text[20];
+    char *path = mote_format("%s/letters.json", f->directory);
     uint64_t fingerprint = 0;
     mote_status status = mote_summary_make(f->directory, &f->summary);
     if (status == MOTE_OK && (f->summary.count != 1 || f->summary.rows[0].finished == 0))
@@ -58,9 +58,9 @@ static mote_status read_film(film *f)
         status = mote_bodies_load(path, &f->bodies);
     if (status == MOTE_OK)
         status = mote_bodies_fingerprint(f->bodies, &fingerprint);
-    (void)snprintf(text, sizeof text, "%016" PRIx64, fingerprint);
-    if (status == MOTE_OK && strcmp(text, f->cell->fingerprint) != 0)
-        status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", path);
+    if (status == MOTE_OK &&
+        !mote_stored_is_of(f->cell, fingerprint, mote_bodies_faces(f->bodies)))
+        status = mote_fail(MOTE_EINVAL, "%s: other frames or faces than those measured", path);
     free(path);
     return status;
 }

@@ -3,7 +3,6 @@
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +24,6 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
 {
     const char *name = row->scenario;
     uint64_t fingerprint;
-    char text[20];
     memset(scene, 0, sizeof *scene);
     mote_status status = mote_scenario_load(name, &scene->scenario);
     if (status == MOTE_OK)
@@ -33,9 +31,10 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
     if (status == MOTE_OK) {
         const mote_stored_cell *cell = row->first;
         const uint32_t last = cell->frames > 0 ? cell->frame[cell->frames - 1] : 0;
-        (void)snprintf(text, sizeof text, "%016" PRIx64, fingerprint);
-        if (strcmp(text, cell->fingerprint) != 0 || last > scene->scenario->frames)
-            status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", name);
+        if (!mote_stored_is_of(cell, fingerprint, mote_scenario_faces(scene->scenario)) ||
+            last > scene->scenario->frames)
+            status =
+                mote_fail(MOTE_EINVAL, "%s: other frames or faces than those measured", name);
     }
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
         if (mote_body_is_given(&scene->scenario->body[i]))

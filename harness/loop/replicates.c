@@ -41,18 +41,19 @@ static json_t *identity(const mote_replicates *plan, size_t task)
     const mote_simulation_options *o = &plan->options;
     const mote_method_choice *choice = choice_of(plan, task);
     const uint32_t replicate = replicate_of(plan, task);
-    char fingerprint[20], program[20];
+    char fingerprint[20], faces[20], program[20];
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, plan->subject->fingerprint);
+    (void)snprintf(faces, sizeof faces, "%016" PRIx64, plan->subject->faces);
     (void)snprintf(program, sizeof program, "%016" PRIx64, plan->program);
     return json_pack(
-        "{s:s, s:s, s:o, s:i, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:[f,f,f], s:s, s:b}",
-        "fingerprint", fingerprint, "method", choice->method->name, "parameters",
-        mote_choice_json(choice, plan->subject->bodies != NULL), "replicate", (int)replicate,
-        "seed", (json_int_t)mote_replicate_seed(plan->seed, false, replicate), "steps_asked",
-        (json_int_t)plan->steps, "density", o->density, "restitution", o->restitution,
-        "tolerance", o->tolerance, "time_step", o->time_step, "within", (int)o->within,
-        "gravity", o->gravity.x, o->gravity.y, o->gravity.z, "program", program, "alone",
-        plan->jobs == 1);
+        "{s:s, s:s, s:s, s:o, s:i, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:[f,f,f], s:s, s:b}",
+        "fingerprint", fingerprint, "faces", faces, "method", choice->method->name,
+        "parameters", mote_choice_json(choice, plan->subject->bodies != NULL), "replicate",
+        (int)replicate, "seed", (json_int_t)mote_replicate_seed(plan->seed, false, replicate),
+        "steps_asked", (json_int_t)plan->steps, "density", o->density, "restitution",
+        o->restitution, "tolerance", o->tolerance, "time_step", o->time_step, "within",
+        (int)o->within, "gravity", o->gravity.x, o->gravity.y, o->gravity.z, "program", program,
+        "alone", plan->jobs == 1);
 }
 
 /* A simulation's identity with the names that are shown. The caller decrefs. */
@@ -174,8 +175,9 @@ static mote_status finish_task(void *context, size_t task, mote_child *child, do
     mote_simulation_result result;
     if (done)
         memcpy(&result, child->output, sizeof result);
-    else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EINVAL)
-        return mote_fail(MOTE_EINVAL, "%s", child->text);
+    else if (child->end == MOTE_CHILD_DONE &&
+             (child->status == MOTE_EINVAL || child->status == MOTE_ENOMEM))
+        return mote_fail(child->status, "%s", child->text);
     else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EUNSUPPORTED)
         how = "unsupported";
     (void)fprintf(stderr, "%s %s r%u: %s%s%s, %.1f s\n", w->plan->scenario,

@@ -8,7 +8,7 @@
 #include "harness/run/plan.h"
 
 typedef struct mote_replicates {
-    const mote_subject *subject; /* with its fingerprint */
+    const mote_subject *subject; /* with its hashes */
     const char *scenario;        /* its displayed name */
     const mote_choices *choices;
     mote_simulation_options options;
@@ -28,9 +28,10 @@ typedef struct mote_replicates {
 mote_status mote_replicates_check(const mote_replicates *plan);
 
 /* Runs the missing simulations; simulations.h reads them. Invalid input, such as bodies that
-   start in contact, ends everything with MOTE_EINVAL; a crash, or a method that cannot answer,
-   is stored as that replicate's result. MOTE_EIO also if a signal asked to stop. With a share,
-   the precision reached is told on stderr. */
+   start in contact, ends everything with MOTE_EINVAL, and memory that runs out with
+   MOTE_ENOMEM, where what is finished is kept; a crash, or a method that cannot answer, is
+   stored as that replicate's result. MOTE_EIO also if a signal asked to stop. With a share, the
+   precision reached is told on stderr. */
 mote_status mote_replicates_run(const mote_replicates *plan);
 
 #endif

@@ -24,9 +24,9 @@ static void copy_key(const json_t *from, const char *key, json_t *to)
 
 json_t *mote_simulation_question(const json_t *stored)
 {
-    static const char *const keys[] = {
-        "scenario",    "fingerprint", "method",    "parameters", "steps_asked", "density",
-        "restitution", "tolerance",   "time_step", "gravity",    "alone"};
+    static const char *const keys[] = {"scenario",   "fingerprint", "faces",   "method",
+                                       "parameters", "steps_asked", "density", "restitution",
+                                       "tolerance",  "time_step",   "gravity", "alone"};
     json_t *question = json_object();
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; ++k)
         copy_key(stored, keys[k], question);
@@ -36,6 +36,20 @@ json_t *mote_simulation_question(const json_t *stored)
     const json_int_t replicate = json_integer_value(json_object_get(stored, "replicate"));
     (void)json_object_set_new(question, "seed", json_integer(seed - replicate + 1));
     return question;
+}
+
+bool mote_simulation_same_question(const json_t *a, const json_t *b)
+{
+    static const char faces[] = "faces";
+    if (!json_object_get(a, faces) == !json_object_get(b, faces))
+        return json_equal(a, b);
+    json_t *left = json_deep_copy(a), *right = json_deep_copy(b);
+    (void)json_object_del(left, faces);
+    (void)json_object_del(right, faces);
+    const bool same = json_equal(left, right);
+    json_decref(left);
+    json_decref(right);
+    return same;
 }
 
 bool mote_simulations_exist(const char *directory)
@@ -218,6 +232,7 @@ static json_t *row_json(const mote_simulations_row *row)
                            "bodies", (json_int_t)row->bodies);
     }
     copy_key(row->question, "fingerprint", object);
+    copy_key(row->question, "faces", object);
     if (row->unsupported)
         (void)json_object_set_new(object, "unsupported", json_string(row->unsupported));
     (void)json_object_set_new(object, "replicates", json_integer(row->done));
@@ -236,6 +251,7 @@ json_t *mote_simulations_json(const mote_simulations *list)
     if (one) {
         copy_key(json_array_get(rows, 0), "scenario", root);
         copy_key(json_array_get(rows, 0), "fingerprint", root);
+        copy_key(json_array_get(rows, 0), "faces", root);
         copy_key(json_array_get(rows, 0), "bodies", root);
     }
     (void)json_object_set_new(root, "rows", rows);

@@ -40,6 +40,10 @@ typedef struct mote_simulations {
    parameters, options, the seed of the first replicate. The caller decrefs. */
 json_t *mote_simulation_question(const json_t *stored);
 
+/* Whether two questions are the same. One that an older version stored does not name its faces,
+   and is taken for those of the other. */
+bool mote_simulation_same_question(const json_t *a, const json_t *b);
+
 /* Whether a directory keeps simulations. */
 bool mote_simulations_exist(const char *directory);
 
@@ -58,9 +62,10 @@ mote_status mote_simulations_read(const char *directory, mote_simulations *list)
 void mote_simulations_free(mote_simulations *list);
 
 /* {"schema": 1, "rows": [...]}: a row has the keys of `mote simulate --json` and "fingerprint",
-   "replicates", "replicates_failed", "query_ns_low", "query_ns_high"; without a result it has
-   no figures, and "unsupported" if the method cannot answer. If all rows are of one scenario,
-   the object has its "scenario", "fingerprint" and "bodies" too. The caller decrefs. */
+   "faces", "replicates", "replicates_failed", "query_ns_low", "query_ns_high"; without a result
+   it has no figures, and "unsupported" if the method cannot answer. If all rows are of one
+   scenario, the object has its "scenario", "fingerprint", "faces" and "bodies" too. The caller
+   decrefs. */
 json_t *mote_simulations_json(const mote_simulations *list);
 
 /* Writes DIRECTORY/simulations.json. */

@@ -100,9 +100,41 @@ static mote_status ask_to_open(const contest *c, const mote_race_cell *cell, int
                            c->bout->options.check_scene, cell->method);
 }
 
+/* Reads "FACES ASK STEP TOLERANCE", which older programs do not send. */
+static bool read_question(char *rest, mote_race_scene *scene)
+{
+    const char *fields[4], *faces;
+    uint64_t step = 0;
+    char *end = NULL;
+    for (int k = 0; k < 4; ++k)
+        fields[k] = next_field(&rest, '\t');
+    faces = fields[0];
+    if (!faces)
+        return true;
+    scene->faces = strtoull(faces, &end, 16);
+    if (*end != '\0' || !fields[3] || strlen(fields[1]) >= sizeof scene->ask ||
+        !mote_read_unsigned(fields[2], 0, UINT32_MAX, &step) ||
+        !mote_read_real(fields[3], -HUGE_VAL, HUGE_VAL, &scene->tolerance))
+        return false;
+    (void)snprintf(scene->ask, sizeof scene->ask, "%s", fields[1]);
+    scene->step = (uint32_t)step;
+    return true;
+}
+
+/* Whether two sides have the same frames and faces, and are asked the same, as far as both
+   say. */
+static bool is_same_scene(const mote_race_scene *a, const mote_race_scene *b)
+{
+    if (a->fingerprint != b->fingerprint)
+        return false;
+    return !a->ask[0] || !b->ask[0] ||
+           (a->faces == b->faces && strcmp(a->ask, b->ask) == 0 && a->step == b->step &&
+            !(a->tolerance < b->tolerance) && !(a->tolerance > b->tolerance));
+}
+
 /* Waits until a side has opened the cell. */
 static mote_status hear_opened(contest *c, const mote_race_cell *cell, int side,
-                               uint64_t *print)
+                               mote_race_scene *scene)
 {
     mote_racer *racer = &c->bout->racer[side];
     char *answer = NULL;
@@ -116,13 +148,15 @@ static mote_status hear_opened(contest *c, const mote_race_cell *cell, int side,
     if (!frame || !mote_read_real(length, 0, HUGE_VAL, &c->length) ||
         !mote_read_unsigned(frame, cell->first, UINT32_MAX, &last))
         return unreadable(racer);
-    *print = strtoull(fingerprint, &end, 16);
-    if (*end != '\0' || (c->frames > 0 && c->frames != (uint32_t)last - cell->first + 1))
-        return *end ? unreadable(racer)
-                    : mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
+    scene->fingerprint = strtoull(fingerprint, &end, 16);
+    if (*end != '\0' || !read_question(answer, scene))
+        return unreadable(racer);
+    ++c->bout->cells[side]; /* the racer has it, whatever is made of it here */
+    const uint32_t frames = (uint32_t)last - cell->first + 1;
+    if (c->frames > 0 && c->frames != frames)
+        return mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
     c->first = cell->first;
-    c->frames = (uint32_t)last - cell->first + 1;
-    ++c->bout->cells[side];
+    c->frames = frames;
     return MOTE_OK;
 }
 
@@ -204,11 +238,37 @@ static mote_status run_block(contest *c, int side, uint32_t pass, uint32_t offse
     return *end ? unreadable(racer) : MOTE_OK;
 }
 
-/* An answer as sent by a racer: "DISTANCE:CONTACT". */
+/* An answer as sent by a racer: "DISTANCE:CONTACT", or "DISTANCE:CONTACT:SET:VALUE:VALUE". */
 typedef struct told {
     double distance; /* MOTE_NONE: none */
     char contact;    /* '0', '1', or '-' for none */
+    bool more;       /* whether it has what follows */
+    uint64_t set;
+    double values[2]; /* MOTE_NONE: none */
 } told;
+
+/* Reads an answer; false if it is none. */
+static bool read_told(const char *field, told *answer)
+{
+    char *end = NULL;
+    *answer = (told){.distance = field ? strtod(field, &end) : MOTE_NONE};
+    if (!field || end == field || *end != ':')
+        return false;
+    answer->contact = end[1];
+    answer->more = end[1] && end[2] == ':';
+    if (!answer->more)
+        return true;
+    answer->set = strtoull(end + 3, &end, 16);
+    for (int k = 0; k < 2; ++k) {
+        const char *value = end + 1;
+        if (*end != ':')
+            return false;
+        answer->values[k] = strtod(value, &end);
+        if (end == value)
+            return false;
+    }
+    return *end == '\0';
+}
 
 /* Reads the answers of a side's last block. */
 static mote_status ask_answers(contest *c, int side, told *answers, uint32_t count)
@@ -220,24 +280,32 @@ static mote_status ask_answers(contest *c, int side, told *answers, uint32_t cou
     if (status != MOTE_OK)
         return status;
     for (uint32_t k = 0; k < count; ++k) {
-        const char *field = next_field(&answer, ',');
-        char *end = NULL;
-        answers[k].distance = field ? strtod(field, &end) : MOTE_NONE;
-        if (!field || end == field || *end != ':')
+        if (!read_told(next_field(&answer, ','), &answers[k]))
             return unreadable(racer);
-        answers[k].contact = end[1];
     }
     return MOTE_OK;
 }
 
-/* The difference in L; infinite if only one side gives a distance, or if they disagree about
-   the contact. */
+/* The difference of two numbers; infinite if only one side gives one. */
+static double difference(double a, double b)
+{
+    if ((a == a) != (b == b))
+        return HUGE_VAL;
+    return a == a ? fabs(a - b) : 0;
+}
+
+/* The difference in L, or of times of impact as a part of the question's; infinite if only one
+   side gives a distance, or if they disagree about a contact. */
 static double apart(const contest *c, const told *a, const told *b)
 {
-    const bool has[] = {a->distance == a->distance, b->distance == b->distance};
-    if (a->contact != b->contact || has[0] != has[1])
+    if (a->contact != b->contact)
         return HUGE_VAL;
-    return has[0] ? fabs(a->distance - b->distance) / c->length : 0;
+    double most = difference(a->distance, b->distance) / c->length;
+    if (!a->more || !b->more)
+        return most;
+    for (int k = 0; k < 2; ++k)
+        most = fmax(most, difference(a->values[k], b->values[k]));
+    return a->set == b->set ? most : HUGE_VAL;
 }
 
 /* Finds by how much the answers of a block differ, once their bits do. */
@@ -342,16 +410,18 @@ static mote_status run_passes(contest *c)
    side that was asked must be heard. */
 static mote_status open_cell(contest *c, const mote_race_cell *cell)
 {
-    uint64_t print[MOTE_RACE_SIDES] = {0, 0};
+    mote_race_scene scene[MOTE_RACE_SIDES] = {{0}, {0}};
     mote_race_side *side = c->result->side;
     mote_status status = MOTE_OK;
     for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k)
         status = note(ask_to_open(c, cell, k), &side[k]);
     for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k) {
         if (!side[k].failed)
-            status = note(hear_opened(c, cell, k, &print[k]), &side[k]);
+            status = note(hear_opened(c, cell, k, &scene[k]), &side[k]);
     }
-    c->result->same_scene = is_over(c->result) || print[MOTE_RACE_A] == print[MOTE_RACE_B];
+    c->result->same_scene =
+        is_over(c->result) || is_same_scene(&scene[MOTE_RACE_A], &scene[MOTE_RACE_B]);
+    c->result->scene = scene[scene[MOTE_RACE_A].ask[0] ? MOTE_RACE_A : MOTE_RACE_B];
     return status;
 }
 

@@ -24,6 +24,14 @@ typedef struct mote_race_cell {
     uint64_t seed; /* for the method */
 } mote_race_cell;
 
+/* What a program says of the scenario of a cell. */
+typedef struct mote_race_scene {
+    uint64_t fingerprint, faces; /* 0 unless they were asked for */
+    char ask[16];  /* "": a program that does not say what follows, or the faces */
+    uint32_t step; /* frames that a question about impacts spans; 0: of others */
+    double tolerance;
+} mote_race_scene;
+
 /* Whether and why one side did not finish a cell. */
 typedef struct mote_race_side {
     bool refused, failed; /* it cannot measure this cell; it crashed or took too long */
@@ -33,13 +41,16 @@ typedef struct mote_race_side {
 /* The result of a bout for a cell. */
 typedef struct mote_bout_result {
     mote_race_side side[MOTE_RACE_SIDES];
-    bool same_scene;    /* both sides have the same frames, if checked */
-    double log_ratio;   /* of times: see harness/race/paired.h */
-    double total_ns[2]; /* per frame */
+    bool same_scene;       /* both sides have the same frames and faces, if checked, and are
+                              asked the same */
+    mote_race_scene scene; /* as one of them says, which says more */
+    double log_ratio;      /* of times: see harness/race/paired.h */
+    double total_ns[2];    /* per frame */
     uint32_t frames, passes, blocks;
     mote_race_count counts[MOTE_RACE_COUNTS]; /* of the first pass */
     size_t count_count;
-    double worst;         /* the largest difference of two answers, in L; 0: equal bits */
+    double worst;         /* the largest difference of two answers, in L, or of two times of
+                             impact, as a part of the question's; 0: equal bits */
     uint32_t worst_frame; /* frame of that difference */
 } mote_bout_result;
 
@@ -47,7 +58,7 @@ typedef struct mote_bout_options {
     const char *program[MOTE_RACE_SIDES];
     int core;
     double timeout;      /* per answer, seconds */
-    bool check_scene;    /* compare the scenarios' fingerprints */
+    bool check_scene;    /* compare the scenarios' fingerprints and faces */
     mote_random *random; /* for orders and layouts */
 } mote_bout_options;
 

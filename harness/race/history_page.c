@@ -145,11 +145,31 @@ static void add_races(page *p, const char *key)
     end_chart(text, "races: time of B over A, with its interval");
 }
 
-static void add_row(page *p, const char *name, const mote_history_point *start)
+/* The name of a row, and what it was asked if that tells it from another of its name. */
+static char *title_of(const page *p, const mote_race_name *row, const mote_history_point *start)
 {
-    char *key = mote_race_row_key(name);
+    char *own = mote_race_row_key(row->name, "");
+    bool others = false;
+    for (size_t i = 0; i < p->races.name_count; ++i) {
+        char *key = mote_race_row_key(p->races.names[i].name, "");
+        others =
+            others || (strcmp(key, own) == 0 && strcmp(p->races.names[i].asked, row->asked));
+        free(key);
+    }
+    free(own);
+    if (!others && start)
+        return mote_history_title(&p->history, start);
+    return others
+               ? mote_format("%s, frames %s", row->name, row->asked[0] ? row->asked : "unknown")
+               : mote_duplicate(row->name);
+}
+
+static void add_row(page *p, const mote_race_name *row, const mote_history_point *start)
+{
+    char *key = mote_race_row_key(row->name, row->asked), *title = title_of(p, row, start);
     mote_text_add(&p->text, "<h2>");
-    mote_escape_html(&p->text, name);
+    mote_escape_html(&p->text, title);
+    free(title);
     mote_text_add(&p->text, "</h2><div class=\"charts\">\n");
     if (start)
         add_references(p, start);
@@ -164,11 +184,31 @@ static bool has_reference(const page *p, const char *key)
 {
     bool found = false;
     for (size_t i = 0; !found && i < p->history.count; ++i) {
-        char *other = mote_race_row_key(p->history.points[i].row);
+        const mote_history_point *point = &p->history.points[i];
+        char *other = mote_race_row_key(point->row, point->asked);
         found = strcmp(other, key) == 0;
         free(other);
     }
     return found;
+}
+
+/* Older references and races do not say what their rows were asked: those of the one are taken
+   for the same as those of the other. */
+static void complete_asked(page *p)
+{
+    for (size_t i = 0; i < p->history.count; ++i) {
+        mote_history_point *point = &p->history.points[i];
+        char *key = mote_race_row_key(point->row, "");
+        for (size_t k = 0; k < p->races.name_count && point->asked[0] == '\0'; ++k) {
+            char *other = mote_race_row_key(p->races.names[k].name, "");
+            if (strcmp(key, other) == 0)
+                point->asked = p->races.names[k].asked;
+            free(other);
+        }
+        if (point->asked[0])
+            mote_race_files_complete(&p->races, point->row, point->asked);
+        free(key);
+    }
 }
 
 /* Adds rows of the history first, then those that occur only in races. */
@@ -176,13 +216,15 @@ static void add_rows(page *p)
 {
     for (size_t i = 0; i < p->history.count; ++i) {
         const mote_history_point *start = &p->history.points[i];
+        const mote_race_name row = {(char *)(uintptr_t)start->row, start->asked};
         if (mote_history_begins_series(&p->history, i))
-            add_row(p, start->row, start);
+            add_row(p, &row, start);
     }
     for (size_t i = 0; i < p->races.name_count; ++i) {
-        char *key = mote_race_row_key(p->races.names[i]);
+        const mote_race_name *row = &p->races.names[i];
+        char *key = mote_race_row_key(row->name, row->asked);
         if (!has_reference(p, key))
-            add_row(p, p->races.names[i], NULL);
+            add_row(p, row, NULL);
         free(key);
     }
 }
@@ -267,6 +309,7 @@ mote_status mote_history_page(const char *file, const char *races, const char *t
         status = mote_race_files_read(races, &p.races);
     if (status == MOTE_OK && p.history.count == 0 && p.races.count == 0)
         status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; accept a reference first", file);
+    complete_asked(&p);
     if (status == MOTE_OK)
         status = add_page(&p);
     if (status == MOTE_OK)

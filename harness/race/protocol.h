@@ -7,7 +7,9 @@
                                   (for impacts: those in which a question begins);
                                   cells are numbered from 0. PRINT 1: with the fingerprint
                                   (otherwise 0, since it takes long); LAST 0: to the end
-                                  ok FINGERPRINT L LAST
+                                  ok FINGERPRINT L LAST FACES ASK STEP TOLERANCE
+                                  FACES: a hash of the triangles, 0 without PRINT; ASK:
+                                  distance, contact or impact
        run CELL FIRST COUNT       measures frames FIRST .. FIRST + COUNT - 1
                                   ok HASH NAME=COUNT,... NS,NS,...
                                   HASH of the answers; sums of the counts; time per frame of
@@ -15,10 +17,16 @@
        answers CELL               the answers of the frames last run
                                   ok DISTANCE:CONTACT,...
                                   nan and - where missing; CONTACT is 0 or 1
+                                  of impacts and of more than two bodies
+                                  ok DISTANCE:CONTACT:SET:VALUE:VALUE,...
+                                  SET: a hash of the pairs in contact, 0 of impacts; VALUES of
+                                  an impact: from and to, as parts of the question's time; of
+                                  many bodies: a sum over the distances of near pairs, in L
        any request that fails     no REASON
 
-   race-child ends at the end of its input. A change of this format raises MOTE_RACE_FORMAT: a
-   program with another format is refused, never misread. */
+   What follows LAST and CONTACT was added later: programs that do not know it leave it out, or
+   do not read it. race-child ends at the end of its input. A change of this format raises
+   MOTE_RACE_FORMAT: a program with another format is refused, never misread. */
 #ifndef MOTE_HARNESS_RACE_PROTOCOL_H
 #define MOTE_HARNESS_RACE_PROTOCOL_H
 

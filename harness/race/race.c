@@ -5,6 +5,7 @@
 #include "harness/race/protocol.h"
 #include "harness/run/cell_process.h"
 #include "harness/base/clock.h"
+#include "harness/summary/history.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -104,6 +105,7 @@ static void keep(mote_race_row *row, const mote_bout_result *result)
         memcpy(row->total_ns, result->total_ns, sizeof row->total_ns);
         row->count_count = result->count_count;
         row->frames = result->frames;
+        row->scene = result->scene;
     }
     row->logs[row->pairs++] = result->log_ratio;
     row->blocks += result->blocks;
@@ -248,6 +250,41 @@ static mote_status check_rows(const mote_race *race)
                      race->rows[0].reason);
 }
 
+/* Whether another cell differs from this one in its frames alone. */
+static bool has_other_frames(const mote_race_options *options, const mote_race_cell *cell)
+{
+    for (size_t i = 0; i < options->cell_count; ++i) {
+        const mote_race_cell *other = &options->cells[i];
+        if (strcmp(other->scenario, cell->scenario) == 0 &&
+            strcmp(other->method, cell->method) == 0 && other->cache == cell->cache &&
+            (other->first != cell->first || other->last != cell->last))
+            return true;
+    }
+    return false;
+}
+
+/* The caller frees it. A cell without a last frame is the only one of its name without
+   frames. */
+static char *name_row(const mote_race_options *options, const mote_race_cell *cell)
+{
+    const char *cache = mote_cache_names[cell->cache];
+    if (cell->last == 0 || !has_other_frames(options, cell))
+        return mote_format("%s/%s/%s", cell->scenario, cell->method, cache);
+    return mote_format("%s@%u-%u/%s/%s", cell->scenario, cell->first, cell->last, cell->method,
+                       cache);
+}
+
+char *mote_race_asked(const mote_race_row *row)
+{
+    const mote_race_scene *scene = &row->scene;
+    uint32_t frames[2] = {0, 0};
+    if (row->frames > 0 && scene->ask[0]) {
+        frames[0] = row->cell->first;
+        frames[1] = frames[0] + row->frames - 1 + scene->step; /* in which the last one ends */
+    }
+    return mote_history_asked(frames, scene->ask, scene->step, scene->tolerance);
+}
+
 static void begin(const mote_race_options *options, mote_race *race)
 {
     *race = (mote_race){.rows = mote_allocate(options->cell_count, sizeof *race->rows),
@@ -256,8 +293,7 @@ static void begin(const mote_race_options *options, mote_race *race)
         const mote_race_cell *cell = &options->cells[i];
         mote_race_row *row = &race->rows[i];
         row->cell = cell;
-        row->name = mote_format("%s/%s/%s", cell->scenario, cell->method,
-                                mote_cache_names[cell->cache]);
+        row->name = name_row(options, cell);
         row->ratio = row->interval.low = row->interval.high = row->spread = MOTE_NONE;
         row->instructions[0] = row->instructions[1] = MOTE_NONE;
         row->verdict = MOTE_VERDICT_UNDECIDED;

@@ -57,7 +57,8 @@ extern const char *const mote_race_state_names[];
 /* The results for a cell. */
 typedef struct mote_race_row {
     const mote_race_cell *cell;
-    char *name; /* "ww/certified/hot"; with frames if the name occurs twice */
+    char *name; /* "ww/certified/hot"; "ww@1-9/certified/hot" if the race also has it over
+                   other frames */
     mote_race_state state;
     char reason[900]; /* why it was not measured */
     double logs[MOTE_PAIRED_MAX];
@@ -72,7 +73,8 @@ typedef struct mote_race_row {
     mote_verdict verdict;
     mote_race_count counts[MOTE_RACE_COUNTS]; /* sums over the frames of a pass */
     size_t count_count;
-    uint32_t frames;
+    uint32_t frames;                      /* 0: not measured */
+    mote_race_scene scene;                /* what they were asked */
     bool counted;                         /* whether a count differs */
     bool missing[2];                      /* whether a side lacks this cell, or failed in it */
     double worst;                         /* largest difference of answers, as a share of L */
@@ -92,6 +94,9 @@ typedef struct mote_race {
 /* The pairs of processes at the look after one at so many: half as many again, MOTE_PAIRED_MAX
    at most. The first look comes as soon as there is an interval. */
 size_t mote_race_next_look(size_t pairs);
+
+/* What a row was asked (mote_history_asked); "" if it was not measured. The caller frees it. */
+char *mote_race_asked(const mote_race_row *row);
 
 /* Runs a race. MOTE_EIO and MOTE_EINVAL if a program cannot race at all (see mote_racer_start),
    if no cell can be measured, and if a signal asked to stop; all processes have then ended. The

@@ -11,6 +11,7 @@
 #include "harness/run/measure.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,13 +29,20 @@ typedef struct scene {
     mote_subject subject;
 } scene;
 
+/* The answers of a frame. */
+typedef struct told {
+    mote_answer answer;
+    uint64_t contacts; /* of more than two bodies: a hash of the pairs in contact */
+    double values[2];  /* of an impact: from and to; of more than two bodies: see sum_near */
+} told;
+
 /* A built cell, with the answers of the frames that it ran last. */
 typedef struct entrant {
     mote_cell cell;
     mote_method_choice choice;
     mote_measurement *measurement;
     uint32_t previous;
-    mote_answer answers[MOTE_RACE_BLOCK_FRAMES];
+    told answers[MOTE_RACE_BLOCK_FRAMES];
     uint32_t count;
 } entrant;
 
@@ -137,16 +145,70 @@ static mote_status open_cell(server *s, char *fields[8])
         return status;
     }
     s->entrants[s->entrant_count++] = e;
-    mote_text_add(&s->reply, "ok\t%016" PRIx64 "\t%.17g\t%u", of->subject.fingerprint,
-                  facts.length, e->cell.last);
+    mote_text_add(&s->reply, "ok\t%016" PRIx64 "\t%.17g\t%u\t%016" PRIx64 "\t%s\t%u\t%.17g",
+                  of->subject.fingerprint, facts.length, e->cell.last, of->subject.faces,
+                  mote_ask_names[facts.ask], e->cell.step, facts.tolerance);
     return MOTE_OK;
 }
 
-static uint64_t hash_answer(uint64_t hash, const mote_answer *answer)
+static uint64_t hash_pair(uint64_t hash, const mote_near_pair *pair)
 {
+    return mote_hash_word(mote_hash_word(hash, pair->body[0]), pair->body[1]);
+}
+
+/* How far within `near` the pairs are, in L, added up. Each has a factor of its own, from 1 to
+   2, so that differences of two pairs do not cancel out. A pair just at `near` adds next to
+   nothing, so it does not matter whether it was found. */
+static double sum_near(const mote_bodies *bodies, const mote_near_pair *pairs, size_t count)
+{
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const mote_answer *answer = &pairs[k].answer;
+        const double within = bodies->near - answer->distance;
+        const uint64_t drawn = hash_pair(MOTE_HASH_START, &pairs[k]) >> 11;
+        if (answer->has_distance && within > 0)
+            sum += within / bodies->length * (1 + ldexp((double)drawn, -53));
+    }
+    return sum;
+}
+
+static uint64_t hash_contacts(const mote_near_pair *pairs, size_t count)
+{
+    uint64_t hash = MOTE_HASH_START;
+    for (size_t k = 0; k < count; ++k) {
+        if (pairs[k].answer.contact)
+            hash = hash_pair(hash, &pairs[k]);
+    }
+    return hash;
+}
+
+/* What there is to tell about a frame. */
+static told tell(const entrant *e, const mote_cell_row *row)
+{
+    told t = {.answer = row->answer, .values = {MOTE_NONE, MOTE_NONE}};
+    const mote_bodies *bodies = e->cell.subject->bodies;
+    if (bodies) {
+        size_t count;
+        const mote_near_pair *pairs = mote_measurement_pairs(e->measurement, &count);
+        t.contacts = hash_contacts(pairs, count);
+        t.values[0] = sum_near(bodies, pairs, count);
+    } else if (row->impact.answered && row->impact.impact) {
+        t.values[0] = row->impact.from;
+        t.values[1] = row->impact.to;
+    }
+    return t;
+}
+
+static uint64_t hash_told(uint64_t hash, const told *t)
+{
+    const mote_answer *answer = &t->answer;
     hash = mote_hash_word(hash, answer->has_distance);
     hash = mote_hash_double(hash, answer->has_distance ? answer->distance : 0);
-    return mote_hash_word(hash, answer->has_contact ? 1 + (uint64_t)answer->contact : 0);
+    hash = mote_hash_word(hash, answer->has_contact ? 1 + (uint64_t)answer->contact : 0);
+    hash = mote_hash_word(hash, t->contacts);
+    for (int k = 0; k < 2; ++k)
+        hash = mote_hash_double(hash, t->values[k] == t->values[k] ? t->values[k] : -1);
+    return hash;
 }
 
 static void add_counts(mote_text *reply, const mote_counters *sums)
@@ -185,9 +247,9 @@ static mote_status run_frames(entrant *e, uint32_t first, uint32_t count, uint64
             return mote_fail(MOTE_EIO, "frame %u: the method failed", first + k);
         e->previous = first + k;
         times[k] = row.deform_ns + row.update_ns + row.query_ns;
-        e->answers[k] = row.answer;
+        e->answers[k] = tell(e, &row);
         e->count = k + 1;
-        *hash = hash_answer(*hash, &row.answer);
+        *hash = hash_told(*hash, &e->answers[k]);
         sum_counts(sums, &row.answer.counters);
     }
     return MOTE_OK;
@@ -239,10 +301,14 @@ static mote_status tell_answers(server *s, char *fields[8])
         return status;
     mote_text_add(&s->reply, "ok");
     for (uint32_t k = 0; k < e->count; ++k) {
-        const mote_answer *a = &e->answers[k];
+        const told *t = &e->answers[k];
+        const mote_answer *a = &t->answer;
         mote_text_add(&s->reply, "%s%.17g:%c", k ? "," : "\t",
                       a->has_distance ? a->distance : MOTE_NONE,
                       a->has_contact ? (a->contact ? '1' : '0') : '-');
+        if (e->cell.subject->bodies || e->cell.step > 0)
+            mote_text_add(&s->reply, ":%016" PRIx64 ":%.17g:%.17g", t->contacts, t->values[0],
+                          t->values[1]);
     }
     return MOTE_OK;
 }

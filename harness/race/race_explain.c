@@ -2,6 +2,7 @@
 
 #include "harness/base/record.h"
 #include "harness/process/spawn.h"
+#include "harness/run/own_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,16 +20,11 @@ static double count_of(const char *program, const mote_race_row *row, const char
     const uint32_t most = row->cell->first + INSTRUCTION_FRAMES - 1;
     const uint32_t last = row->cell->first + row->frames - 1;
     char *frames = mote_format("%u-%u", row->cell->first, last < most ? last : most);
-    const char *const argv[] = {program,
-                                "instructions",
-                                row->cell->scenario,
-                                "--frames",
-                                frames,
-                                "--method",
-                                row->cell->method,
-                                "--out",
-                                folder,
-                                NULL};
+    enum { WORDS = 8 };
+    const char *const words[WORDS] = {"instructions", row->cell->scenario, "--frames", frames,
+                                      "--method",     row->cell->method,   "--out",    folder};
+    const char *argv[1 + WORDS + MOTE_OWN_WORDS_MAX + 1] = {program};
+    argv[mote_own_words_add(words, WORDS, argv, 1)] = NULL;
     json_t *counted = NULL;
     double per_frame = MOTE_NONE;
     if (mote_spawn_quiet(argv, NULL) == MOTE_OK &&
@@ -80,13 +76,14 @@ static void say_change(mote_text *text, const char *name, double a, double b)
 
 static void say_answers(mote_text *text, const mote_race_row *row)
 {
+    const char *unit = strcmp(row->scene.ask, "impact") == 0 ? "of the question's time" : "L";
     if (row->worst > MOTE_RACE_EXACT && isfinite(row->worst))
-        mote_text_add(text, "answers differ by up to %.2g L, at frame %u", row->worst,
+        mote_text_add(text, "answers differ by up to %.2g %s, at frame %u", row->worst, unit,
                       row->worst_frame);
     else if (row->worst > MOTE_RACE_EXACT)
         mote_text_add(text, "answers differ: contact or none, at frame %u", row->worst_frame);
     else if (row->worst > 0)
-        mote_text_add(text, "answers differ by rounding (%.2g L)", row->worst);
+        mote_text_add(text, "answers differ by rounding (%.2g %s)", row->worst, unit);
 }
 
 /* Says why the time changed, as far as counts and instructions show it. */

@@ -4,6 +4,7 @@
 #include "harness/base/record.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *verdict_of(const mote_race *race)
@@ -68,20 +69,23 @@ static json_t *counts_json(const mote_race_row *row)
 
 static json_t *row_json(const mote_race_options *options, const mote_race_row *row)
 {
-    return json_pack(
-        "{s:s, s:s, s:s, s:s, s:i, s:s, s:o, s:o, s:o, s:s, s:b, s:i, s:i, s:I, s:f, s:o, "
+    char *asked = mote_race_asked(row);
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:i, s:s, s:o, s:o, s:o, s:s, s:b, s:i, s:i, s:I, s:f, s:o, "
         "s:[o, o], s:o, s:[o, o], s:o, s:s}",
-        "name", row->name, "scenario", row->cell->scenario, "method", row->cell->method,
-        "cache", mote_cache_names[row->cell->cache], "frames", (int)row->frames, "status",
-        mote_race_state_names[row->state], "ratio", mote_json_number(row->ratio), "ci_low",
-        mote_json_number(row->interval.low), "ci_high", mote_json_number(row->interval.high),
-        "verdict", mote_verdict_names[row->verdict], "worse", is_worse(options, row), "pairs",
-        (int)row->pairs, "looks", (int)row->looks, "blocks", (json_int_t)row->blocks, "seconds",
-        row->seconds, "spread", mote_json_number(row->spread), "total_ns",
-        mote_json_number(row->total_ns[0]), mote_json_number(row->total_ns[1]), "counts",
-        counts_json(row), "instructions", mote_json_number(row->instructions[0]),
-        mote_json_number(row->instructions[1]), "answers_apart", mote_json_number(row->worst),
-        "what", row->what ? row->what : "");
+        "name", row->name, "asked", asked, "scenario", row->cell->scenario, "method",
+        row->cell->method, "cache", mote_cache_names[row->cell->cache], "frames",
+        (int)row->frames, "status", mote_race_state_names[row->state], "ratio",
+        mote_json_number(row->ratio), "ci_low", mote_json_number(row->interval.low), "ci_high",
+        mote_json_number(row->interval.high), "verdict", mote_verdict_names[row->verdict],
+        "worse", is_worse(options, row), "pairs", (int)row->pairs, "looks", (int)row->looks,
+        "blocks", (json_int_t)row->blocks, "seconds", row->seconds, "spread",
+        mote_json_number(row->spread), "total_ns", mote_json_number(row->total_ns[0]),
+        mote_json_number(row->total_ns[1]), "counts", counts_json(row), "instructions",
+        mote_json_number(row->instructions[0]), mote_json_number(row->instructions[1]),
+        "answers_apart", mote_json_number(row->worst), "what", row->what ? row->what : "");
+    free(asked);
+    return object;
 }
 
 json_t *mote_race_json(const mote_race_options *options, const mote_race *race,

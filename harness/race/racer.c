@@ -6,6 +6,7 @@
 #include "harness/process/child.h"
 #include "harness/process/spawn.h"
 #include "harness/race/protocol.h"
+#include "harness/run/own_words.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -66,8 +67,11 @@ static _Noreturn void be_racer(const start *s)
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (dup2(nowhere, STDERR_FILENO) < 0 || setenv("MOTE_RACE_PADDING", s->padding, 1) != 0)
         _exit(MOTE_SPAWN_NOT_RUN);
-    const char *const argv[] = {s->program, "race-child", "--core", s->core, "--stack",
-                                s->stack,   "--heap",     s->heap,  NULL};
+    enum { WORDS = 7 };
+    const char *const words[WORDS] = {"race-child", "--core", s->core, "--stack",
+                                      s->stack,     "--heap", s->heap};
+    const char *argv[1 + WORDS + MOTE_OWN_WORDS_MAX + 1] = {s->program};
+    argv[mote_own_words_add(words, WORDS, argv, 1)] = NULL;
     mote_spawn_become(argv);
 }
 

@@ -18,7 +18,8 @@ typedef struct mote_racer {
 } mote_racer;
 
 /* Runs `program race-child`, which measures on a core (-1: on any), with an environment, a
-   stack offset and a heap offset of random sizes. MOTE_EIO if it cannot be run. */
+   stack offset and a heap offset of random sizes, and with the --allow, --strict and --plugin
+   that this program was given. MOTE_EIO if it cannot be run. */
 mote_status mote_racer_start(const char *program, int core, double timeout, mote_random *random,
                              mote_racer *racer);
 

@@ -48,19 +48,25 @@ static char *named_by(const json_t *words, size_t k, const char *name)
     return word && may_name(word, name) ? mote_format("%s", word) : NULL;
 }
 
-/* Whether the file that a word names is the scenario with this fingerprint; stores it if so. */
-static bool try_word(const char *word, const char *fingerprint, mote_scenario **scenario)
+/* Whether a scenario is the one that a cell measured. */
+static bool is_measured(const mote_scenario *scenario, const mote_stored_cell *cell)
+{
+    uint64_t fingerprint = 0;
+    for (int i = 0; i < 2; ++i) {
+        if (scenario->body[i].mesh->vertex_count > MOTE_REPLAY_VERTICES)
+            return false;
+    }
+    return mote_scenario_fingerprint(scenario, &fingerprint) == MOTE_OK &&
+           mote_stored_is_of(cell, fingerprint, mote_scenario_faces(scenario));
+}
+
+/* Whether the file that a word names is the scenario of a cell; stores it if so. */
+static bool try_word(const char *word, const mote_stored_cell *cell, mote_scenario **scenario)
 {
     mote_scenario *loaded = NULL;
-    uint64_t found = 0;
-    char text[20] = "";
     if (mote_scenario_load(word, &loaded) != MOTE_OK)
         return false;
-    bool small = loaded->body[0].mesh->vertex_count <= MOTE_REPLAY_VERTICES &&
-                 loaded->body[1].mesh->vertex_count <= MOTE_REPLAY_VERTICES;
-    if (small && mote_scenario_fingerprint(loaded, &found) == MOTE_OK)
-        (void)snprintf(text, sizeof text, "%016" PRIx64, found);
-    if (strcmp(text, fingerprint) == 0) {
+    if (is_measured(loaded, cell)) {
         *scenario = loaded;
         return true;
     }
@@ -78,13 +84,13 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
         json_integer_value(json_array_get(vertices, 1)) > MOTE_REPLAY_VERTICES)
         return mote_fail(MOTE_EUNSUPPORTED, "%s: its meshes have more than %u vertices",
                          cell->scenario, MOTE_REPLAY_VERTICES);
-    if (try_word(cell->scenario, cell->fingerprint, scenario))
+    if (try_word(cell->scenario, cell, scenario))
         return MOTE_OK;
     for (size_t i = 0; i < json_array_size(sessions); ++i) {
         const json_t *words = json_object_get(json_array_get(sessions, i), "command");
         for (size_t k = 0; k < json_array_size(words); ++k) {
             char *named = named_by(words, k, cell->scenario);
-            const bool found = named && try_word(named, cell->fingerprint, scenario);
+            const bool found = named && try_word(named, cell, scenario);
             free(named);
             if (found)
                 return MOTE_OK;
@@ -122,6 +128,16 @@ static bool is_shown(const mote_summary_row *row)
            !strstr(row->label, "positions=given");
 }
 
+/* The file of the truth; older versions did not name the faces in it. */
+static char *truth_path(const char *directory, const mote_replay_scene *scene,
+                        uint64_t fingerprint)
+{
+    return scene->tracks[0].cell->faces[0]
+               ? mote_truth_path(directory, scene->scenario, fingerprint)
+               : mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scene->scenario->name,
+                             fingerprint);
+}
+
 /* Reads the truth from the tracks' cells, and its points from the truth's own file if that
    exists. */
 static void read_truth(const mote_report *report, mote_replay_scene *scene)
@@ -141,8 +157,7 @@ static void read_truth(const mote_report *report, mote_replay_scene *scene)
     }
     uint64_t fingerprint = strtoull(scene->tracks[0].cell->fingerprint, NULL, 16);
     mote_truth *truth = NULL;
-    char *path = mote_format("%s/truth/%s-%016" PRIx64 ".csv", report->directory,
-                             scene->scenario->name, fingerprint);
+    char *path = truth_path(report->directory, scene, fingerprint);
     const mote_status status = mote_truth_read(scene->scenario, fingerprint, path, &truth);
     free(path);
     if (status != MOTE_OK) {
@@ -240,6 +255,11 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
 {
     mote_replay_scene made = {.notes = json_array()};
     mote_status status = MOTE_OK;
+    if (mote_report_row(report, first)->step > 0)
+        status = mote_fail(MOTE_EUNSUPPORTED,
+                           "%s: it asks for impacts between frames; what is shown are answers "
+                           "about frames",
+                           mote_report_row(report, first)->scenario);
     for (size_t i = first; i < end && status == MOTE_OK; ++i) {
         if (is_shown(mote_report_row(report, i)))
             status = add_track(report, mote_report_row(report, i), &made);

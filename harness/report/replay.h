@@ -45,9 +45,9 @@ typedef struct mote_replay_scene {
 } mote_replay_scene;
 
 /* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot caches,
-   and reads the answers of each. MOTE_EUNSUPPORTED with the reason if it cannot be shown: the
-   scenario's file is missing or has changed, a mesh or a field is too large, or a cell has a
-   frame that the scenario lacks. The caller frees *scene. */
+   and reads the answers of each. MOTE_EUNSUPPORTED with the reason if it cannot be shown: it
+   asks for impacts, the scenario's file is missing or has changed, a mesh or a field is too
+   large, or a cell has a frame that the scenario lacks. The caller frees *scene. */
 mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
                              mote_replay_scene *scene);
 void mote_replay_free(mote_replay_scene *scene);

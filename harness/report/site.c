@@ -240,6 +240,7 @@ static void add_question(const mote_summary_row *row, json_t *block)
     (void)json_object_set_new(block, "ask", json_string(row->ask));
     (void)json_object_set_new(block, "machine", json_string(row->machine));
     (void)json_object_set_new(block, "fingerprint", json_string(row->fingerprint));
+    (void)json_object_set_new(block, "faces", json_string(row->faces));
     (void)json_object_set_new(block, "tolerance", mote_json_number(row->tolerance));
     (void)json_object_set_new(
         block, "frames",

@@ -51,14 +51,17 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
     const mote_method *asked = cell->choice->method;
     mote_text text = {0};
-    mote_text_add(&text, "%016" PRIx64 " %d %.17g %s ", cell->subject->fingerprint,
-                  (int)facts.ask, facts.tolerance, asked->name);
+    mote_text_add(&text, "%016" PRIx64 " %016" PRIx64 " %d %.17g %s ",
+                  cell->subject->fingerprint, cell->subject->faces, (int)facts.ask,
+                  facts.tolerance, asked->name);
     describe_values(asked->parameters, asked->parameter_count, cell->choice->values, &text);
     if (cell->subject->bodies)
         describe_values(mote_scene_parameters, MOTE_SCENE_KEYS, cell->choice->scene, &text);
     mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
                   cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
                   program);
+    if (facts.active.first > 0)
+        mote_text_add(&text, " active %u-%u", facts.active.first, facts.active.last);
     if (cell->step > 0)
         mote_text_add(&text, " step %u", cell->step);
     if (cell->jobs > 1)
@@ -140,9 +143,10 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
 {
     const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
     const bool of_scene = cell->subject->bodies != NULL;
-    char fingerprint[20], hash[20], machine[MOTE_MACHINE_SIZE];
+    char fingerprint[20], faces[20], hash[20], machine[MOTE_MACHINE_SIZE];
     mote_machine_name(machine, sizeof machine);
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, cell->subject->fingerprint);
+    (void)snprintf(faces, sizeof faces, "%016" PRIx64, cell->subject->faces);
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     json_t *object = json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
@@ -160,6 +164,7 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         cell->fixed_seed);
     (void)json_object_set_new(
         object, "told", json_string(mote_cell_told_positions(cell) ? "positions" : "field"));
+    (void)json_object_set_new(object, "faces", json_string(faces));
     if (cell->step > 0)
         (void)json_object_set_new(object, "step", json_integer(cell->step));
     if (of_scene) {

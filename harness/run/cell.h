@@ -71,9 +71,9 @@ typedef struct mote_cell {
 uint32_t mote_cell_rows(const mote_cell *cell);
 
 /* Sets cell->id: a readable beginning, then a hash of everything that determines the
-   measurement: the scenario's fingerprint, the question, method, every parameter, replicate,
-   frames, step, stride asked, seed, cache, whether other cells ran at the same time, and
-   program (mote_program_hash). */
+   measurement: both hashes of the scenario, the question, method, every parameter, replicate,
+   frames, the active interval, step, stride asked, seed, cache, whether other cells ran at the
+   same time, and program (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
 /* X(name): further columns of cells/ID.csv for more than two bodies. The time of motion (poses

@@ -205,9 +205,10 @@ static mote_status compute(const mote_scenario *scenario, uint64_t fingerprint,
 /* The first line of the file, but for the number at its end. */
 static char *first_part(const mote_scenario *scenario, uint64_t fingerprint)
 {
-    return mote_format("# impacts of %s, fingerprint %016" PRIx64
+    return mote_format("# impacts of %s, fingerprint %016" PRIx64 ", faces %016" PRIx64
                        ", tolerance %.17g, %u frames, not in samples: ",
-                       scenario->name, fingerprint, scenario->tolerance, scenario->frames);
+                       scenario->name, fingerprint, mote_scenario_faces(scenario),
+                       scenario->tolerance, scenario->frames);
 }
 
 static mote_status write_file(const mote_scenario *scenario, const mote_impact_truth *truth,
@@ -281,13 +282,19 @@ static bool read_file(const mote_scenario *scenario, uint64_t fingerprint, const
     return good;
 }
 
+char *mote_impact_truth_path(const char *directory, const mote_scenario *scenario,
+                             uint64_t fingerprint)
+{
+    return mote_format("%s/truth/%s-%016" PRIx64 "-%016" PRIx64 "-impacts.csv", directory,
+                       scenario->name, fingerprint, mote_scenario_faces(scenario));
+}
+
 mote_status mote_impact_truth_load_or_compute(const mote_scenario *scenario,
                                               uint64_t fingerprint, const char *directory,
                                               mote_impact_truth **truth)
 {
     char *folder = mote_format("%s/truth", directory);
-    char *path = mote_format("%s/truth/%s-%016" PRIx64 "-impacts.csv", directory,
-                             scenario->name, fingerprint);
+    char *path = mote_impact_truth_path(directory, scenario, fingerprint);
     mote_status status = mote_directory_make(folder);
     if (status == MOTE_OK && !read_file(scenario, fingerprint, path, truth)) {
         mote_impact_truth *made = NULL;

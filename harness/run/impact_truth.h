@@ -19,10 +19,14 @@ typedef struct mote_impact_truth {
     uint32_t unsampled;   /* gaps with an impact that no sample has seen */
 } mote_impact_truth;
 
-/* Reads DIR/truth/NAME-FINGERPRINT-impacts.csv if it exists, is complete and belongs to the
-   scenario and its tolerance; otherwise computes it in a child process and writes it.
-   MOTE_ENUMERIC, the text naming the frame, if the other program disagrees. Errors as
-   mote_truth_load_or_compute. The caller destroys *truth. */
+/* Its file, DIR/truth/NAME-FINGERPRINT-FACES-impacts.csv. The caller frees it. */
+char *mote_impact_truth_path(const char *directory, const mote_scenario *scenario,
+                             uint64_t fingerprint);
+
+/* Reads this file if it exists, is complete and belongs to the scenario and its tolerance;
+   otherwise computes it in a child process and writes it. MOTE_ENUMERIC, the text naming the
+   frame, if the other program disagrees. Errors as mote_truth_load_or_compute. The caller
+   destroys *truth. */
 mote_status mote_impact_truth_load_or_compute(const mote_scenario *scenario,
                                               uint64_t fingerprint, const char *directory,
                                               mote_impact_truth **truth);

@@ -1,10 +1,12 @@
 #include "harness/run/instructions.h"
 
 #include "harness/run/measure.h"
+#include "harness/run/own_words.h"
 #include "harness/base/record.h"
-#include "harness/process/plugin.h"
+#include "harness/process/manifest.h"
 #include "harness/process/spawn.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,18 +84,24 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
     return status;
 }
 
+/* A count that was asked for. */
+typedef struct request {
+    const char *scenario; /* as on the command line */
+    uint32_t first, last;
+    const char *directory;
+    mote_subject subject;
+    uint32_t questions; /* within the frames */
+} request;
+
 /* Refuses a scenario, frames or a method before anything is written. */
-static mote_status check_input(const char *scenario, uint32_t first, uint32_t last,
-                               const mote_choices *choices, uint32_t *questions)
+static mote_status check_input(request *r, const mote_choices *choices)
 {
-    mote_subject subject = {0};
-    mote_status status = mote_subject_open(scenario, &subject);
+    mote_status status = mote_subject_open(r->scenario, &r->subject);
     if (status == MOTE_OK)
-        status = check_frames(scenario, &subject, first, last, questions);
-    mote_subject_free(&subject);
+        status = check_frames(r->scenario, &r->subject, r->first, r->last, &r->questions);
     for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i)
         status = check_threads(&choices->items[i]);
-    return status;
+    return status == MOTE_OK ? mote_subject_identify(&r->subject) : status;
 }
 
 /* The number after "totals:" in callgrind's output. */
@@ -124,24 +132,13 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
-        enum { WORDS = 13 };
-        const char *argv[WORDS + 2 * MOTE_PLUGINS_MAX + 1] = {"valgrind",
-                                                              "--tool=callgrind",
-                                                              "--quiet",
-                                                              option,
-                                                              "--toggle-collect=timed_*",
-                                                              program,
-                                                              "instructions",
-                                                              scenario,
-                                                              "--frames",
-                                                              frames,
-                                                              "--method",
-                                                              method,
-                                                              "--inside"};
-        for (size_t k = 0; mote_plugin_path(k); ++k) {
-            argv[WORDS + 2 * k] = "--plugin";
-            argv[WORDS + 2 * k + 1] = mote_plugin_path(k);
-        }
+        enum { BEFORE = 6, WORDS = 7 };
+        const char *const words[WORDS] = {"instructions", scenario, "--frames", frames,
+                                          "--method",     method,   "--inside"};
+        const char *argv[BEFORE + WORDS + MOTE_OWN_WORDS_MAX + 1] = {
+            "valgrind", "--tool=callgrind",         "--quiet",
+            option,     "--toggle-collect=timed_*", program};
+        argv[mote_own_words_add(words, WORDS, argv, BEFORE)] = NULL;
         status = mote_spawn(argv, NULL, NULL, 0);
     }
     if (status == MOTE_OK)
@@ -154,7 +151,8 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
 
 static bool same_row(const json_t *a, const json_t *b)
 {
-    static const char *const keys[] = {"scenario", "method", "parameters", "frames"};
+    static const char *const keys[] = {"scenario", "fingerprint", "faces",
+                                       "method",   "parameters",  "frames"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         if (!json_equal(json_object_get(a, keys[i]), json_object_get(b, keys[i])))
             return false;
@@ -174,11 +172,12 @@ static void put_row(json_t *rows, json_t *row)
     (void)json_array_append_new(rows, row);
 }
 
-/* The stored rows; an empty array if there are none. */
-static json_t *read_rows(const char *directory)
+/* The stored rows, which this program counted; an empty array if there are none. */
+static json_t *read_rows(const char *directory, const char *program)
 {
     json_t *object = NULL, *rows = NULL;
-    if (mote_record_read_json(directory, "instructions.json", &object) == MOTE_OK)
+    if (mote_record_read_json(directory, "instructions.json", &object) == MOTE_OK &&
+        strcmp(mote_text_at(object, "program"), program) == 0)
         rows = json_incref(json_object_get(object, "rows"));
     json_decref(object);
     if (json_is_array(rows))
@@ -187,35 +186,55 @@ static json_t *read_rows(const char *directory)
     return json_array();
 }
 
+static json_t *row_json(const request *r, const mote_method_choice *choice, json_int_t count)
+{
+    char fingerprint[20], faces[20];
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, r->subject.fingerprint);
+    (void)snprintf(faces, sizeof faces, "%016" PRIx64, r->subject.faces);
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario",
+                     mote_subject_facts_of(&r->subject).name, "fingerprint", fingerprint,
+                     "faces", faces, "method", choice->method->name, "label", choice->text,
+                     "parameters", mote_choice_json(choice, r->subject.bodies != NULL),
+                     "frames", (int)r->first, (int)r->last, "instructions", count, "per_frame",
+                     (double)count / r->questions);
+}
+
+/* Counts one method and writes the file with its row, so that a later failure loses nothing. */
+static mote_status count_and_keep(const request *r, const mote_method_choice *choice,
+                                  const char *program, json_t *rows)
+{
+    char frames[32];
+    json_int_t count = 0;
+    (void)snprintf(frames, sizeof frames, "%u-%u", r->first, r->last);
+    const mote_status status =
+        count_one(r->scenario, frames, choice->text, r->directory, &count);
+    if (status != MOTE_OK)
+        return status;
+    (void)printf("%-40s %14.0f instructions a frame\n", choice->text,
+                 (double)count / r->questions);
+    (void)fflush(stdout);
+    put_row(rows, row_json(r, choice, count));
+    return mote_record_json(
+        r->directory, "instructions.json",
+        json_pack("{s:i, s:s, s:O}", "schema", 1, "program", program, "rows", rows));
+}
+
 mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32_t last,
                                     const mote_choices *choices, const char *directory)
 {
-    char frames[32];
-    (void)snprintf(frames, sizeof frames, "%u-%u", first, last);
-    uint32_t questions = 0;
-    mote_status status = check_input(scenario, first, last, choices, &questions);
+    request r = {.scenario = scenario, .first = first, .last = last, .directory = directory};
+    char program[20] = "";
+    uint64_t hash = 0;
+    mote_status status = check_input(&r, choices);
+    if (status == MOTE_OK)
+        status = mote_program_hash(&hash);
     if (status == MOTE_OK)
         status = mote_directory_make(directory);
-    json_t *rows = status == MOTE_OK ? read_rows(directory) : NULL;
-    for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i) {
-        const mote_method_choice *choice = &choices->items[i];
-        json_int_t count = 0;
-        status = count_one(scenario, frames, choice->text, directory, &count);
-        if (status != MOTE_OK)
-            break;
-        double per_frame = (double)count / questions;
-        (void)printf("%-40s %14.0f instructions a frame\n", choice->text, per_frame);
-        (void)fflush(stdout);
-        put_row(rows,
-                json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario", scenario,
-                          "method", choice->method->name, "label", choice->text, "parameters",
-                          mote_choice_json(choice, mote_bodies_is(scenario)), "frames",
-                          (int)first, (int)last, "instructions", count, "per_frame",
-                          per_frame));
-    }
-    if (status == MOTE_OK)
-        return mote_record_json(directory, "instructions.json",
-                                json_pack("{s:i, s:o}", "schema", 1, "rows", rows));
+    (void)snprintf(program, sizeof program, "%016" PRIx64, hash);
+    json_t *rows = status == MOTE_OK ? read_rows(directory, program) : NULL;
+    for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i)
+        status = count_and_keep(&r, &choices->items[i], program, rows);
     json_decref(rows);
+    mote_subject_free(&r.subject);
     return status;
 }

@@ -15,10 +15,12 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
                                   const mote_method_choice *choice);
 
 /* Runs this program once under callgrind for each choice, and adds to
-   directory/instructions.json {"schema": 1, "rows": [{"scenario", "method", "label",
-   "parameters", "frames": [A, B], "instructions", "per_frame"}]}; counts cover deformation,
-   update and query; rows of the same configuration are replaced. Makes the directory. MOTE_EIO
-   if valgrind or the program fails. */
+   directory/instructions.json {"schema": 1, "program", "rows": [{"scenario" (its name),
+   "fingerprint", "faces", "method", "label", "parameters", "frames": [A, B], "instructions",
+   "per_frame"}]}; counts cover deformation, update and query; rows of the same configuration
+   are replaced, and all rows that another build of the program counted are dropped. The file is
+   written after each choice. Makes the directory. MOTE_EIO if valgrind or the program fails:
+   what was counted before is kept. */
 mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32_t last,
                                     const mote_choices *choices, const char *directory);
 

@@ -342,6 +342,11 @@ mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t numbe
     return status == MOTE_OK ? ask(measurement, number, frame, 0, row) : status;
 }
 
+const mote_near_pair *mote_measurement_pairs(const mote_measurement *measurement, size_t *count)
+{
+    return mote_engine_pairs(measurement->engine, count);
+}
+
 void mote_measurement_close(mote_measurement *measurement)
 {
     if (measurement)

@@ -32,6 +32,11 @@ mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **meas
 /* Runs a frame; `previous` (0: none) is the one run before it. Sets row. */
 mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t number,
                                    uint32_t previous, mote_cell_row *row);
+
+/* The near pairs of the frame run last, ascending, with their answers; valid until the next. */
+const mote_near_pair *mote_measurement_pairs(const mote_measurement *measurement,
+                                             size_t *count);
+
 void mote_measurement_close(mote_measurement *measurement); /* NULL is allowed */
 
 #endif

@@ -20,6 +20,8 @@ uint32_t mote_subject_step(const mote_subject *subject)
 
 mote_status mote_subject_identify(mote_subject *subject)
 {
+    subject->faces = subject->bodies ? mote_bodies_faces(subject->bodies)
+                                     : mote_scenario_faces(subject->scenario);
     if (subject->bodies)
         return mote_bodies_fingerprint(subject->bodies, &subject->fingerprint);
     mote_status status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);

@@ -1,5 +1,5 @@
-/* The subject of a measurement: a scenario of two or more bodies, with its fingerprint and
-   truth. */
+/* The subject of a measurement: a scenario of two or more bodies, with the hashes that
+   identify it, and its truth. */
 #ifndef MOTE_HARNESS_SUBJECT_H
 #define MOTE_HARNESS_SUBJECT_H
 
@@ -13,7 +13,8 @@
 typedef struct mote_subject {
     mote_scenario *scenario; /* two bodies; NULL if bodies is set */
     mote_bodies *bodies;     /* more than two; NULL if scenario is set */
-    uint64_t fingerprint;
+    uint64_t fingerprint;    /* of the vertices in all frames */
+    uint64_t faces;          /* of the triangles */
     mote_truth
         *truth; /* two bodies; NULL until something is measured. There is none for more bodies:
                    contacts are compared with those of an exact method of the run */
@@ -27,7 +28,7 @@ bool mote_subject_asks_impacts(const mote_subject *subject);
 uint32_t mote_subject_step(const mote_subject *subject);
 
 /* mote_subject_open loads a scenario of two or more bodies (names as for mote_scenario_load and
-   mote_bodies_load); mote_subject_identify computes its fingerprint, which reads its frames;
+   mote_bodies_load); mote_subject_identify computes both hashes, which reads its frames;
    mote_subject_load does both. Free with mote_subject_free even after a failure. */
 mote_status mote_subject_open(const char *name_or_path, mote_subject *subject);
 mote_status mote_subject_identify(mote_subject *subject);

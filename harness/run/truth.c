@@ -282,8 +282,7 @@ mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
                                              mote_truth **truth)
 {
     char *folder = mote_format("%s/truth", directory);
-    char *path =
-        mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scenario->name, fingerprint);
+    char *path = mote_truth_path(directory, scenario, fingerprint);
     mote_status status = mote_directory_make(folder);
     /* A missing or damaged file is computed again. */
     if (status == MOTE_OK && mote_truth_read(scenario, fingerprint, path, truth) != MOTE_OK) {

@@ -28,9 +28,12 @@ typedef struct mote_truth {
    caller destroys *truth. */
 mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth);
 
-/* Reads DIR/truth/NAME-FINGERPRINT.csv if it exists, is complete and belongs to the scenario;
-   otherwise computes and writes it. MOTE_EIO if the file cannot be written. The caller destroys
-   *truth. */
+/* The file of a scenario's truth, DIR/truth/NAME-FINGERPRINT-FACES.csv. The caller frees it. */
+char *mote_truth_path(const char *directory, const mote_scenario *scenario,
+                      uint64_t fingerprint);
+
+/* Reads this file if it exists, is complete and belongs to the scenario; otherwise computes and
+ *writes it. MOTE_EIO if the file cannot be written. The caller destroys truth. */
 mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
                                        mote_truth **truth);
 
@@ -46,7 +49,8 @@ mote_truth *mote_truth_allocate(uint32_t frames);
 void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth);
 
 /* Reads or writes the file of a truth; reading gives MOTE_EINVAL for a file that is incomplete
-   or belongs to another scenario or fingerprint. */
+   or belongs to another scenario or fingerprint, or to other faces. A file of an older version
+   does not name its faces and is read as well. */
 mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
                             const char *path, mote_truth **truth);
 mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,

@@ -13,11 +13,26 @@
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
 
+char *mote_truth_path(const char *directory, const mote_scenario *scenario,
+                      uint64_t fingerprint)
+{
+    return mote_format("%s/truth/%s-%016" PRIx64 "-%016" PRIx64 ".csv", directory,
+                       scenario->name, fingerprint, mote_scenario_faces(scenario));
+}
+
 /* The first line up to the number of checked frames. A scenario may have any name. */
 static char *first_part(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames)
 {
+    return mote_format("# truth of %s, fingerprint %016" PRIx64 ", faces %016" PRIx64
+                       ", %u frames, ",
+                       scenario->name, fingerprint, mote_scenario_faces(scenario), frames);
+}
+
+/* The same as older versions wrote it, without the faces. */
+static char *old_first_part(const mote_scenario *scenario, uint64_t fingerprint)
+{
     return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, ", scenario->name,
-                       fingerprint, frames);
+                       fingerprint, scenario->frames);
 }
 
 #define FIRST_END " checked\n"
@@ -108,17 +123,26 @@ bool mote_truth_unseal(char *text, size_t size)
     return same;
 }
 
+/* What follows a beginning of a text, or NULL; frees the beginning. */
+static const char *behind(const char *text, char *beginning)
+{
+    const size_t length = strlen(beginning);
+    const bool begins = strncmp(text, beginning, length) == 0;
+    free(beginning);
+    return begins ? text + length : NULL;
+}
+
 /* Reads the first line and the column names; NULL if they do not match this truth. */
 static const char *read_head(const mote_scenario *scenario, uint64_t fingerprint,
                              const char *text, mote_truth *truth)
 {
     static const char rest[] = FIRST_END COLUMNS;
-    char *first = first_part(scenario, fingerprint, scenario->frames), *end = NULL;
-    const size_t length = strlen(first);
-    const bool good = strncmp(text, first, length) == 0;
-    free(first);
-    const unsigned long checked = good ? strtoul(text + length, &end, 10) : 0;
-    if (!good || checked > UINT32_MAX || strncmp(end, rest, strlen(rest)) != 0)
+    char *end = NULL;
+    const char *number = behind(text, first_part(scenario, fingerprint, scenario->frames));
+    if (!number)
+        number = behind(text, old_first_part(scenario, fingerprint));
+    const unsigned long checked = number ? strtoul(number, &end, 10) : 0;
+    if (!number || checked > UINT32_MAX || strncmp(end, rest, strlen(rest)) != 0)
         return NULL;
     truth->checked = (uint32_t)checked;
     return end + strlen(rest);

@@ -76,6 +76,9 @@ void mote_bodies_destroy(mote_bodies *bodies); /* NULL is allowed */
    positions the scenario names were read and valid. */
 mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerprint);
 
+/* The same over the triangles of each shape (harness/mesh/faces.h). */
+uint64_t mote_bodies_faces(const mote_bodies *bodies);
+
 /* Whether a shape has positions instead of a field. */
 bool mote_bodies_any_given(const mote_bodies *bodies);
 

@@ -3,6 +3,7 @@
 #include "core/body/deform.h"
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/faces.h"
 
 #include <stdlib.h>
 
@@ -100,4 +101,12 @@ mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerp
     if (status == MOTE_OK)
         *fingerprint = hash;
     return status;
+}
+
+uint64_t mote_bodies_faces(const mote_bodies *bodies)
+{
+    uint64_t hash = MOTE_HASH_START;
+    for (uint32_t s = 0; s < bodies->shape_count; ++s)
+        hash = mote_faces_hash(hash, bodies->shapes[s].body.mesh);
+    return hash;
 }

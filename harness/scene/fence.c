@@ -9,21 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALLOWED_MAX = 16 };
-
-static char *allowed[ALLOWED_MAX]; /* without links; never freed */
+static char *allowed[MOTE_FENCE_FOLDERS_MAX]; /* without links; never freed */
 static size_t allowed_count;
 
 mote_status mote_fence_allow(const char *folder)
 {
-    if (allowed_count == ALLOWED_MAX)
+    if (allowed_count == MOTE_FENCE_FOLDERS_MAX)
         return mote_fail(MOTE_EINVAL, "%s: %d folders are allowed at most", folder,
-                         ALLOWED_MAX);
+                         MOTE_FENCE_FOLDERS_MAX);
     char *whole = realpath(folder, NULL);
     if (!whole)
         return mote_fail(MOTE_EIO, "%s: %s; name a folder to allow", folder, strerror(errno));
     allowed[allowed_count++] = whole;
     return MOTE_OK;
+}
+
+const char *mote_fence_allowed(size_t index)
+{
+    return index < allowed_count ? allowed[index] : NULL;
 }
 
 /* Neither path contains links. */

@@ -6,9 +6,17 @@
 
 #include "core/base/status.h"
 
+#include <stddef.h>
+
+#define MOTE_FENCE_FOLDERS_MAX 16
+
 /* From now on every scenario may name files in or below this folder (mote --allow). MOTE_EIO if
-   the folder cannot be found, MOTE_EINVAL after 16 of them. Not thread-safe. */
+   the folder cannot be found, MOTE_EINVAL after MOTE_FENCE_FOLDERS_MAX of them. Not
+   thread-safe. */
 mote_status mote_fence_allow(const char *folder);
+
+/* The allowed folders, by number, without links; NULL beyond the last. */
+const char *mote_fence_allowed(size_t index);
 
 /* MOTE_EINVAL unless file is in or below the folder of the scenario file, in the datasets of
    this program, or in an allowed folder. A link inside the scenario's folder is followed, since

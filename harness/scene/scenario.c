@@ -3,6 +3,7 @@
 #include "core/body/deform.h"
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/faces.h"
 #include "harness/scene/motion.h"
 #include "harness/sequence/playback.h"
 
@@ -238,4 +239,10 @@ mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *f
     mote_frame_buffer_destroy(buffer);
     free(world);
     return status;
+}
+
+uint64_t mote_scenario_faces(const mote_scenario *scenario)
+{
+    return mote_faces_hash(mote_faces_hash(MOTE_HASH_START, scenario->body[0].mesh),
+                           scenario->body[1].mesh);
 }

@@ -75,4 +75,8 @@ void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *vel
    means that all positions the scenario names were read and valid. */
 mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint);
 
+/* 64-bit FNV-1a hash over the triangles of both bodies (harness/mesh/faces.h). With the
+   fingerprint it identifies what is measured. */
+uint64_t mote_scenario_faces(const mote_scenario *scenario);
+
 #endif

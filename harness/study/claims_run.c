@@ -83,7 +83,7 @@ static mote_status choose(const leg *l, mote_choices *choices)
     return status;
 }
 
-static mote_status run_leg(const mote_study *study, const leg *l)
+static mote_status run_leg(mote_study *study, const leg *l)
 {
     mote_choices choices = {0};
     mote_status status = choose(l, &choices);
@@ -101,9 +101,11 @@ static mote_status run_leg(const mote_study *study, const leg *l)
                                       .timeout = 600,
                                       .argc = 1,
                                       .argv = argv};
-    mote_run_outcome outcome;
+    mote_run_outcome outcome = {0};
     if (status == MOTE_OK)
         status = mote_run(&options, &outcome);
+    study->cell_failed =
+        outcome.failed > 0 || (status != MOTE_OK && outcome.started); /* as in `mote run` */
     if (status == MOTE_OK && outcome.failed > 0)
         status = mote_fail(MOTE_EIO, "%zu cells of %s failed; see their reason in %s/cells",
                            outcome.failed, l->scenario, study->run);

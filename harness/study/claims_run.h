@@ -6,7 +6,7 @@
 #include "harness/study/study.h"
 
 /* Measures what is missing of the run, then reads it; done once a study, which owns *summary.
- */
+   MOTE_EIO with study->cell_failed if a cell failed. */
 mote_status mote_claims_run(mote_study *study, const mote_summary **summary);
 
 /* A value of a replicate. */

@@ -22,6 +22,7 @@ typedef struct mote_study {
     size_t scene_count;
     mote_summary summary; /* summary of the run against hierarchies, once measured */
     bool summarised;
+    bool cell_failed; /* a cell of the run failed, or could not be kept: why the study ended */
 } mote_study;
 
 /* Makes the directories. directory is borrowed. Close even after a failure. */

@@ -105,7 +105,8 @@
             compared,                                                                          \
             SAME,                                                                              \
             ROUNDING,                                                                          \
-            false                                                                              \
+            false,                                                                             \
+            true                                                                               \
         }                                                                                      \
     }
 
@@ -117,7 +118,8 @@
             compared,                                                                          \
             SAME,                                                                              \
             0,                                                                                 \
-            false                                                                              \
+            false,                                                                             \
+            true                                                                               \
         }                                                                                      \
     }
 
@@ -129,6 +131,7 @@
             compared,                                                                          \
             HEAP_SHARE,                                                                        \
             0,                                                                                 \
+            false,                                                                             \
             false                                                                              \
         }                                                                                      \
     }
@@ -260,7 +263,7 @@ const mote_column mote_columns[] = {
      .brief = "exact",
      .show = mote_show_percent,
      .place = PLACE(40, 40, 40),
-     .rule = {"inexact rate", SAME, 0, true}},
+     .rule = {"inexact rate", SAME, 0, true, true}},
     {.object = "error",
      .key = "exact_rate_separated",
      .type = MOTE_COLUMN_REAL,
@@ -298,7 +301,7 @@ const mote_column mote_columns[] = {
      .unit = "processes",
      .meaning = "How many did not run to their end; no value of the row includes them",
      AT(failed),
-     .rule = {"failed replicates", 0, 0, false}},
+     .rule = {"failed replicates", 0, 0, false, false}},
     {.key = "jobs",
      .csv = "jobs",
      .type = MOTE_COLUMN_COUNT,
@@ -502,6 +505,30 @@ const mote_column mote_columns[] = {
            "iterations", "median", mote_show_count, 30),
     IMPACT(iterations_p95, false, "moments", "Their 95th percentile", "iterations", "p95",
            mote_show_count, 31),
+    {.key = "faces",
+     .csv = "faces",
+     .optional = true,
+     .unit = "",
+     .meaning = "Hash of the triangles, which `fingerprint` does not cover. Left out where an "
+                "older cell does not say",
+     AT(faces)},
+    {.key = "seeds",
+     .csv = "seeds",
+     .optional = true,
+     .unit = "",
+     .meaning =
+         "`own` if each replicate draws random numbers of its own, `fixed` if all draw the "
+         "same (`--fixed-seed`). Left out where an older cell does not say",
+     AT(seeds),
+     .schema = "{\"enum\": [\"own\", \"fixed\"]}"},
+    {.key = "active",
+     .type = MOTE_COLUMN_COUNTS,
+     .optional = true,
+     .unit = "",
+     .meaning =
+         "First and last frame of the active interval, of which `active_total_ns` is; 0 if "
+         "there is none",
+     AT(active)},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

@@ -42,6 +42,8 @@ typedef struct mote_column_rule {
     const char *name; /* its name in a comparison; NULL: not compared in this way */
     double share, negligible;
     bool complement; /* more is better: 1 minus the value is compared */
+    bool answers; /* it depends on the random numbers of a replicate, and is compared over the
+                     replicates that both runs have */
 } mote_column_rule;
 
 typedef struct mote_column {

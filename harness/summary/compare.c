@@ -1,10 +1,10 @@
 #include "harness/summary/compare.h"
 
-#include "core/method/method.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/summary/column.h"
 #include "harness/summary/compared_run.h"
+#include "harness/summary/scene_contacts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,53 +25,6 @@ void mote_comparison_free(mote_comparison *comparison)
     *comparison = none;
 }
 
-/* Whether each parameter of row a has the same value in row b, or is missing there because run
-   b predates it and has its default in a. */
-static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
-{
-    const mote_method *method = mote_method_find(a->method);
-    const char *key;
-    json_t *value;
-    MOTE_EACH_MEMBER(key, value, a->parameters)
-    {
-        const json_t *other = json_object_get(b->parameters, key);
-        bool same = other && json_equal(value, other);
-        for (size_t i = 0; !other && method && i < method->parameter_count; ++i) {
-            const mote_parameter *known = &method->parameters[i];
-            same = same || (json_is_string(value) && strcmp(known->key, key) == 0 &&
-                            strcmp(known->fallback, json_string_value(value)) == 0);
-        }
-        if (!same)
-            return false;
-    }
-    return true;
-}
-
-/* Whether two rows have the same configuration. */
-static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
-{
-    return strcmp(a->scenario, b->scenario) == 0 &&
-           strcmp(a->fingerprint, b->fingerprint) == 0 && strcmp(a->method, b->method) == 0 &&
-           strcmp(a->cache, b->cache) == 0 && a->stride == b->stride && a->seed == b->seed &&
-           a->frames == b->frames && has_parameters(a, b) && has_parameters(b, a);
-}
-
-/* The row with the same configuration, preferably on the same machine. */
-static const mote_summary_row *find_partner(const mote_summary *summary,
-                                            const mote_summary_row *row)
-{
-    const mote_summary_row *found = NULL;
-    for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *other = &summary->rows[i];
-        if (!same_configuration(row, other))
-            continue;
-        if (row->machine[0] && strcmp(row->machine, other->machine) == 0)
-            return other;
-        found = found ? found : other;
-    }
-    return found;
-}
-
 static const mote_process *find_process(const mote_summary_row *row, uint32_t replicate)
 {
     for (size_t p = 0; p < row->process_count; ++p) {
@@ -86,27 +39,40 @@ static bool is_reference(const mote_summary_row *row)
     return row->ratio.to && strcmp(row->ratio.to->label, row->label) == 0;
 }
 
+/* Whether the ratios of two rows are to the same configuration of fcl-aabb, as far as their
+   runs have its row. */
+static bool same_reference(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return !a->ratio.to || !b->ratio.to || mote_compared_same_method(a->ratio.to, b->ratio.to);
+}
+
+/* How the times of two runs are compared. */
+typedef struct yardstick {
+    bool other_machine; /* absolute times say nothing */
+    bool ratios;        /* those to fcl-aabb are to the same configuration */
+} yardstick;
+
 /* The logarithm of new / base of a time: relative to fcl-aabb, which removes most of the
    difference between two machines, or otherwise absolute, on one machine. */
 static double log_change(double base_ratio, double new_ratio, double base_ns, double new_ns,
-                         bool other_machine)
+                         yardstick by)
 {
-    if (base_ratio > 0 && new_ratio > 0)
+    if (by.ratios && base_ratio > 0 && new_ratio > 0)
         return log(base_ratio / new_ratio);
-    if (other_machine)
+    if (by.other_machine)
         return MOTE_NONE;
     return base_ns > 0 && new_ns > 0 ? log(new_ns / base_ns) : MOTE_NONE;
 }
 
 /* The changes of the quiet times, group by group; returns their number. */
 static size_t quiet_changes(const mote_summary_row *base, const mote_summary_row *fresh,
-                            bool other_machine, double *logs)
+                            yardstick by, double *logs)
 {
     const mote_quiet *was = &base->quiet, *is = &fresh->quiet;
     size_t count = 0;
     for (size_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
         const double value =
-            log_change(was->ratio[k], is->ratio[k], was->total[k], is->total[k], other_machine);
+            log_change(was->ratio[k], is->ratio[k], was->total[k], is->total[k], by);
         if (value == value)
             logs[count++] = value;
     }
@@ -116,15 +82,14 @@ static size_t quiet_changes(const mote_summary_row *base, const mote_summary_row
 /* The changes of the processes' medians. Replicates with the same number draw the same random
    numbers, so they are compared in pairs. */
 static size_t process_changes(const mote_summary_row *base, const mote_summary_row *fresh,
-                              bool other_machine, double *logs)
+                              yardstick by, double *logs)
 {
     size_t count = 0;
     for (size_t p = 0; p < base->process_count && count < PAIRS_MAX; ++p) {
         const mote_process *was = &base->processes[p],
                            *is = find_process(fresh, was->replicate);
         const double value =
-            is ? log_change(was->ratio, is->ratio, was->median, is->median, other_machine)
-               : MOTE_NONE;
+            is ? log_change(was->ratio, is->ratio, was->median, is->median, by) : MOTE_NONE;
         if (value == value)
             logs[count++] = value;
     }
@@ -155,13 +120,31 @@ void mote_change_times(mote_change *change, const double *logs, size_t count)
     change->p = mote_statistics_t_test(logs, count);
 }
 
+/* Says that the ratios of two rows are to different ones. On one machine times are then
+   compared as they are. */
+static void say_other_reference(const mote_summary_row *base, const mote_summary_row *fresh,
+                                bool other_machine, mote_change *change)
+{
+    char *text = mote_format("ratios are to %s and to %s: %s", base->ratio.to->label,
+                             fresh->ratio.to->label,
+                             other_machine ? "no time to compare" : "times as they are");
+    if (other_machine)
+        mote_change_unknown(change, text);
+    else
+        mote_text_add(&change->what, "%s%s", change->what.size ? "; " : "", text);
+    free(text);
+}
+
 static void compare_times(const mote_summary_row *base, const mote_summary_row *fresh,
                           bool other_machine, mote_change *change)
 {
     static double logs[PAIRS_MAX];
-    size_t count = quiet_changes(base, fresh, other_machine, logs);
+    const yardstick by = {other_machine, same_reference(base, fresh)};
+    size_t count = quiet_changes(base, fresh, by, logs);
     if (count < MOTE_QUIET_GROUPS)
-        count = process_changes(base, fresh, other_machine, logs);
+        count = process_changes(base, fresh, by, logs);
+    if (!by.ratios)
+        say_other_reference(base, fresh, other_machine, change);
     /* Between machines, a row without a ratio to fcl-aabb has no comparable time. */
     if (count == 0 && !other_machine && has_time(base))
         mote_change_unknown(change, "no time to compare");
@@ -241,16 +224,79 @@ static void compare_counts(const mote_summary_row *base, const mote_summary_row 
     }
 }
 
-/* Compares the columns by their own rules (mote_column_rule). */
+/* Whether another row has all replicates of a row. */
+static bool are_within(const mote_summary_row *row, const mote_summary_row *other)
+{
+    bool within = true;
+    for (size_t p = 0; within && p < row->process_count; ++p)
+        within = find_process(other, row->processes[p].replicate) != NULL;
+    return within;
+}
+
+/* Whether all replicates of a row counted the same: they then gave the same answers. */
+static bool are_alike(const mote_summary_row *row)
+{
+    for (size_t p = 1; p < row->process_count; ++p) {
+        for (size_t k = 0; k < row->count_count; ++k) {
+            if (fabs(row->processes[p].sums[k] - row->processes[0].sums[k]) > 0)
+                return false;
+        }
+    }
+    return row->count_count > 0;
+}
+
+/* A row whose answers are those of the replicates that another row has as well. */
+typedef struct common_row {
+    mote_summary_row row;
+    mote_stored_cell *cells; /* owned; NULL: the row's own */
+    bool known;              /* false: a summary.json does not have these replicates alone */
+} common_row;
+
+/* Counts the contacts of a row of more than two bodies, against the row that counts as true. */
+static mote_status count_pairs(const char *directory, mote_summary_row *row)
+{
+    mote_summary_row rows[] = {*row, *row->contacts_of};
+    const mote_status status = mote_scene_contacts_count(directory, rows, 2);
+    row->contacts = rows[0].contacts;
+    row->missed = rows[0].missed;
+    row->false_contacts = rows[0].false_contacts;
+    return status;
+}
+
+static mote_status restrict_row(const mote_compared_run *run, const mote_summary_row *row,
+                                const mote_summary_row *other, common_row *common)
+{
+    *common = (common_row){.row = *row, .known = true};
+    if (row->process_count == 0 || other->process_count == 0 || are_within(row, other) ||
+        are_alike(row))
+        return MOTE_OK;
+    common->known = row->cells && has_pair(row, other);
+    if (!common->known)
+        return MOTE_OK;
+    mote_summary_row *r = &common->row;
+    common->cells = mote_allocate(row->replicates, sizeof *common->cells);
+    r->replicates = 0;
+    for (size_t k = 0; k < row->replicates; ++k) {
+        if (mote_stored_ran(&row->cells[k]) && find_process(other, row->cells[k].replicate))
+            common->cells[r->replicates++] = row->cells[k];
+    }
+    r->cells = common->cells;
+    r->finished = r->replicates;
+    mote_summary_row_answers(r);
+    return r->contacts_of ? count_pairs(run->directory, r) : MOTE_OK;
+}
+
+/* Compares the columns by their own rules (mote_column_rule): those that depend on random
+   numbers, or the others. */
 static void compare_columns(const mote_summary_row *base, const mote_summary_row *fresh,
-                            mote_change *change)
+                            bool answers, mote_change *change)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {
         const mote_column *column = &mote_columns[i];
         const mote_column_rule *rule = &column->rule;
         double values[2] = {mote_column_number(column, base),
                             mote_column_number(column, fresh)};
-        if (!rule->name)
+        if (!rule->name || rule->answers != answers)
             continue;
         for (size_t k = 0; k < 2; ++k) {
             if (rule->complement)
@@ -261,10 +307,45 @@ static void compare_columns(const mote_summary_row *base, const mote_summary_row
     }
 }
 
-static void compare_row(const mote_summary_row *base, const mote_summary_row *fresh,
-                        bool other_machine, mote_change *change)
+/* Compares errors and contacts over the replicates that both have. */
+static mote_status compare_answers(const mote_compared_run runs[2],
+                                   const mote_summary_row *base, const mote_summary_row *fresh,
+                                   mote_change *change)
 {
-    change->name = mote_format("%s/%s/%s", base->scene, base->label, base->cache);
+    common_row was = {.cells = NULL}, is = {.cells = NULL};
+    mote_status status = restrict_row(&runs[0], base, fresh, &was);
+    if (status == MOTE_OK)
+        status = restrict_row(&runs[1], fresh, base, &is);
+    if (status == MOTE_OK && was.known && is.known)
+        compare_columns(&was.row, &is.row, true, change);
+    else if (status == MOTE_OK)
+        mote_change_unknown(change, "other replicates: errors are not compared");
+    free(was.cells);
+    free(is.cells);
+    return status;
+}
+
+/* Names a row, with its frames where another of its run has the name. */
+static char *name_row(const mote_summary *summary, const mote_summary_row *row)
+{
+    bool ranges = false;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        ranges = ranges || (strcmp(other->scene, row->scene) == 0 &&
+                            strcmp(other->label, row->label) == 0 &&
+                            strcmp(other->cache, row->cache) == 0 &&
+                            !mote_compared_same_range(other->frame_range, row->frame_range));
+    }
+    return ranges ? mote_format("%s@%u-%u/%s/%s", row->scene, row->frame_range[0],
+                                row->frame_range[1], row->label, row->cache)
+                  : mote_format("%s/%s/%s", row->scene, row->label, row->cache);
+}
+
+static mote_status compare_row(const mote_compared_run runs[2], const mote_summary_row *base,
+                               const mote_summary_row *fresh, bool other_machine,
+                               mote_change *change)
+{
+    change->name = name_row(&runs[0].summary, base);
     change->is_reference = is_reference(base) && is_reference(fresh);
     change->ratio = change->interval.low = change->interval.high = change->p = MOTE_NONE;
     change->smallest_change = MOTE_NONE;
@@ -274,19 +355,21 @@ static void compare_row(const mote_summary_row *base, const mote_summary_row *fr
         change->worse = strcmp(was, "ok") == 0;
         change->better = strcmp(is, "ok") == 0;
         change->unknown = was[0] == '\0' && !change->better;
-        return;
+        return MOTE_OK;
     }
     if (strcmp(is, "ok") != 0) {
         if (is[0] == '\0')
             mote_change_unknown(change, "no status");
-        return;
+        return MOTE_OK;
     }
     if (!base->times_comparable || !fresh->times_comparable)
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
         compare_times(base, fresh, other_machine, change);
-    compare_columns(base, fresh, change);
+    const mote_status status = compare_answers(runs, base, fresh, change);
+    compare_columns(base, fresh, false, change);
     compare_counts(base, fresh, change);
+    return status;
 }
 
 /* Says why a time changed, as far as counts and instructions explain it. */
@@ -345,20 +428,23 @@ static double raised_floor(double floor, const mote_compared_run runs[2])
     return floor;
 }
 
-static void compare_rows(const mote_summary *base, const mote_summary *fresh,
-                         mote_comparison *c)
+static mote_status compare_rows(const mote_compared_run runs[2], mote_comparison *c)
 {
+    const mote_summary *base = &runs[0].summary, *fresh = &runs[1].summary;
+    mote_status status = MOTE_OK;
     c->changes = mote_allocate(base->count, sizeof *c->changes);
-    for (size_t i = 0; i < base->count; ++i) {
-        const mote_summary_row *partner = find_partner(fresh, &base->rows[i]);
+    for (size_t i = 0; i < base->count && status == MOTE_OK; ++i) {
+        const mote_summary_row *partner = mote_compared_partner(fresh, &base->rows[i]);
         if (partner)
-            compare_row(&base->rows[i], partner, c->other_machine, &c->changes[c->count++]);
+            status = compare_row(runs, &base->rows[i], partner, c->other_machine,
+                                 &c->changes[c->count++]);
         else
             ++c->only_base;
     }
     /* Several rows of the base, on different machines, may have the same partner. */
     for (size_t i = 0; i < fresh->count; ++i)
-        c->only_new += find_partner(base, &fresh->rows[i]) ? 0 : 1;
+        c->only_new += mote_compared_partner(base, &fresh->rows[i]) ? 0 : 1;
+    return status;
 }
 
 /* Whether both manifests exist and differ in this key. */
@@ -385,6 +471,8 @@ static const json_t *find_counted(const json_t *counted, const mote_summary_row 
     MOTE_EACH(i, other, json_object_get(counted, "rows"))
     {
         if (strcmp(mote_text_at(other, "scenario"), row->scenario) == 0 &&
+            mote_compared_agree(mote_text_at(other, "fingerprint"), row->fingerprint) &&
+            mote_compared_agree(mote_text_at(other, "faces"), row->faces) &&
             strcmp(mote_text_at(other, "method"), row->method) == 0 &&
             json_equal(json_object_get(other, "parameters"), row->parameters) &&
             (!like || same_frames(other, like)))
@@ -401,7 +489,7 @@ static void compare_instructions(const mote_compared_run runs[2], bool judged,
     size_t index = 0;
     for (size_t i = 0; i < runs[0].summary.count; ++i) {
         const mote_summary_row *row = &runs[0].summary.rows[i];
-        if (!find_partner(&runs[1].summary, row))
+        if (!mote_compared_partner(&runs[1].summary, row))
             continue;
         mote_change *change = &c->changes[index++];
         const json_t *was = find_counted(runs[0].instructions, row, NULL);
@@ -426,7 +514,9 @@ static mote_status compare_runs(const mote_compared_run runs[2], double floor,
     c->floor = raised_floor(floor, runs);
     if (c->other_machine && c->floor < MOTE_OTHER_MACHINE_FLOOR)
         c->floor = MOTE_OTHER_MACHINE_FLOOR;
-    compare_rows(&runs[0].summary, &runs[1].summary, c);
+    const mote_status status = compare_rows(runs, c);
+    if (status != MOTE_OK)
+        return status;
     mote_compare_simulations(&runs[0].simulations, &runs[1].simulations, c);
     c->undecided = c->only_base > 0; /* rows missing from the new run */
     if (c->count == 0)

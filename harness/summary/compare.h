@@ -64,8 +64,12 @@ void mote_compare_simulations(const mote_simulations *base, const mote_simulatio
 /* Compares directories (or summary.json files). floor: a share, a minimum that the noise floors
    of both runs can raise. A time is slower only if its ratio is beyond the floor and beyond the
    smallest change that the rows can detect. If manifest.json names another processor, times are
-   compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes,
-   accuracy and the number of failed replicates are compared directly, and so are simulations.
+   compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Where these are to
+   different configurations of fcl-aabb, times are compared as they are, on one machine. Counts,
+   bytes, accuracy and the number of failed replicates are compared directly, and so are
+   simulations; accuracy and counts over the replicates that both rows have, and a row is
+   undecided where a summary.json does not have these alone. Rows are the same as
+   mote_compared_partner says.
    Instructions (instructions.json of both) may grow by 1 %; with another processor or compiler
    they are reported but not judged. MOTE_EIO or MOTE_EINVAL if a summary, or an existing
    manifest.json or instructions.json, cannot be read; MOTE_EINVAL if the runs have no row in

@@ -12,7 +12,7 @@ static const mote_simulations_row *find_partner(const mote_simulations *list,
     const mote_simulations_row *found = NULL;
     for (size_t i = 0; i < list->count; ++i) {
         const mote_simulations_row *other = &list->rows[i];
-        if (!json_equal(row->question, other->question))
+        if (!mote_simulation_same_question(row->question, other->question))
             continue;
         if (json_equal(json_object_get(row->origin, "machine"),
                        json_object_get(other->origin, "machine")))

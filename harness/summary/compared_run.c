@@ -1,5 +1,6 @@
 #include "harness/summary/compared_run.h"
 
+#include "core/method/method.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary_json.h"
 
@@ -60,9 +61,9 @@ static mote_status read_beside(const char *directory, const char *name, json_t *
 
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
 {
-    mote_compared_run made = {.manifest = NULL};
     const char *name;
     char *directory = split(path, &name);
+    mote_compared_run made = {.directory = directory};
     const bool simulated =
         strcmp(name, "summary.json") == 0 && mote_simulations_exist(directory);
     mote_status status = MOTE_OK;
@@ -74,7 +75,6 @@ mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
         status = read_beside(directory, "manifest.json", &made.manifest);
     if (status == MOTE_OK)
         status = read_beside(directory, "instructions.json", &made.instructions);
-    free(directory);
     if (status == MOTE_OK)
         *run = made;
     else
@@ -88,5 +88,87 @@ void mote_compared_run_free(mote_compared_run *run)
     mote_simulations_free(&run->simulations);
     json_decref(run->manifest);
     json_decref(run->instructions);
+    free(run->directory);
     run->manifest = run->instructions = NULL;
+    run->directory = NULL;
+}
+
+/* Whether each parameter of row a has the same value in row b, or is missing there because run
+   b predates it and has its default in a. */
+static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
+{
+    const mote_method *method = mote_method_find(a->method);
+    const char *key;
+    json_t *value;
+    MOTE_EACH_MEMBER(key, value, a->parameters)
+    {
+        const json_t *other = json_object_get(b->parameters, key);
+        bool same = other && json_equal(value, other);
+        for (size_t i = 0; !other && method && i < method->parameter_count; ++i) {
+            const mote_parameter *known = &method->parameters[i];
+            same = same || (json_is_string(value) && strcmp(known->key, key) == 0 &&
+                            strcmp(known->fallback, json_string_value(value)) == 0);
+        }
+        if (!same)
+            return false;
+    }
+    return true;
+}
+
+bool mote_compared_agree(const char *a, const char *b)
+{
+    return a[0] == '\0' || b[0] == '\0' || strcmp(a, b) == 0;
+}
+
+/* Whether two numbers are equal, as far as both are known. */
+static bool numbers_agree(double a, double b)
+{
+    return !(a < b) && !(a > b);
+}
+
+bool mote_compared_same_range(const uint32_t a[2], const uint32_t b[2])
+{
+    return a[0] == 0 || b[0] == 0 || (a[0] == b[0] && a[1] == b[1]);
+}
+
+/* Whether two rows were asked the same about the same scene. */
+static bool same_question(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return strcmp(a->scenario, b->scenario) == 0 &&
+           strcmp(a->fingerprint, b->fingerprint) == 0 &&
+           mote_compared_agree(a->faces, b->faces) && a->stride == b->stride &&
+           a->frames == b->frames && mote_compared_same_range(a->frame_range, b->frame_range) &&
+           mote_compared_agree(a->ask, b->ask) && a->step == b->step &&
+           numbers_agree(a->tolerance, b->tolerance);
+}
+
+bool mote_compared_same_method(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return strcmp(a->method, b->method) == 0 && has_parameters(a, b) && has_parameters(b, a);
+}
+
+/* Whether two rows have the same configuration. What an older run does not say is taken for
+   what the other one says. */
+static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return same_question(a, b) && mote_compared_same_method(a, b) &&
+           strcmp(a->cache, b->cache) == 0 && a->seed == b->seed &&
+           mote_compared_agree(a->seeds, b->seeds);
+}
+
+const mote_summary_row *mote_compared_partner(const mote_summary *summary,
+                                              const mote_summary_row *row)
+{
+    const mote_summary_row *found = NULL;
+    int highest = -1;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        const int rank = (row->times_comparable == other->times_comparable ? 2 : 0) +
+                         (row->machine[0] && strcmp(row->machine, other->machine) == 0 ? 1 : 0);
+        if (rank <= highest || !same_configuration(row, other))
+            continue;
+        found = other;
+        highest = rank;
+    }
+    return found;
 }

@@ -70,8 +70,8 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size);
 /* Prints a table per block, and the rows on its front (dominance.h). */
 void mote_fronts_print(const mote_fronts *fronts, FILE *out);
 
-/* [{"scenario", "fingerprint", "cache", "accounting", "family", "speed": [{"error", "total_ns",
-   "faster", "ci_low", "ci_high", "engine", "engine_faster", "engine_ci_low",
+/* [{"scenario", "fingerprint", "faces", "cache", "accounting", "family", "speed": [{"error",
+   "total_ns", "faster", "ci_low", "ci_high", "engine", "engine_faster", "engine_ci_low",
    "engine_ci_high"}]}]; the first three against the best FCL. */
 json_t *mote_fronts_json(const mote_fronts *fronts);
 

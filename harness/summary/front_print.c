@@ -192,10 +192,11 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
     json_t *list = json_array();
     for (size_t i = 0; i < fronts->count; ++i) {
         const mote_summary_row *row = row_of(fronts, i);
-        json_t *front = json_pack(
-            "{s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->scenario, "fingerprint",
-            row->fingerprint, "cache", row->cache, "accounting", row->accounting, "family",
-            fronts->items[i].title, "speed", speeds_json(fronts, &fronts->items[i]));
+        json_t *front =
+            json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->scenario,
+                      "fingerprint", row->fingerprint, "faces", row->faces, "cache", row->cache,
+                      "accounting", row->accounting, "family", fronts->items[i].title, "speed",
+                      speeds_json(fronts, &fronts->items[i]));
         (void)json_array_append_new(list, front);
     }
     return list;
@@ -245,7 +246,7 @@ static void add_row(const mote_summary_row *row, mote_text *text)
     add_numbers(numbers, ROW_NUMBERS, text);
     mote_text_add(text, ",");
     mote_escape_csv(text, row->dominated_by ? row->dominated_by->label : "", true);
-    mote_text_add(text, ",%d,%s\n", row->on_front, row->fingerprint);
+    mote_text_add(text, ",%d,%s,%s\n", row->on_front, row->fingerprint, row->faces);
 }
 
 static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mote_text *text)
@@ -263,7 +264,7 @@ static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mot
     mote_text_add(text, ",%s,", row->fingerprint);
     mote_escape_csv(text, rival_label(fronts, engine), true);
     add_numbers(others, sizeof others / sizeof others[0], text);
-    mote_text_add(text, "\n");
+    mote_text_add(text, ",%s\n", row->faces);
 }
 
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
@@ -272,11 +273,12 @@ mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
     mote_text_add(&rows, "scenario,cache,family,label");
     for (int k = 0; k < ROW_NUMBERS; ++k)
         mote_text_add(&rows, ",%s", row_numbers[k].name);
-    mote_text_add(&rows, ",dominated_by,on_front,fingerprint\n");
+    mote_text_add(&rows, ",dominated_by,on_front,fingerprint,faces\n");
     for (size_t i = 0; i < fronts->summary->count; ++i)
         add_row(&fronts->summary->rows[i], &rows);
     mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high,"
-                           "fingerprint,engine,engine_faster,engine_ci_low,engine_ci_high\n");
+                           "fingerprint,engine,engine_faster,engine_ci_low,engine_ci_high,"
+                           "faces\n");
     for (size_t i = 0; i < fronts->count; ++i) {
         for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
             add_speed(fronts, i, k, &speeds);

@@ -34,14 +34,36 @@ static const struct figure {
                {"positions", NULL, NULL},          {"box_tests", NULL, NULL},
                {"triangle_tests", NULL, NULL},     {"heap_live_bytes", NULL, "heap_live_bytes"},
                {"error_p99", "error", "p99"}};
-enum { FIGURES = sizeof figures / sizeof figures[0], FIELDS = FIELD_TOTAL + FIGURES };
+enum {
+    FIGURES = sizeof figures / sizeof figures[0],
+    FIELD_ASKED = FIELD_TOTAL + FIGURES, /* the first column that older files do not have */
+    FIELDS
+};
 
+/* The columns that every history has, without the line's end. */
 static void add_header(mote_text *text)
 {
     mote_text_add(text, "date,commit,why,row");
     for (int i = 0; i < FIGURES; ++i)
         mote_text_add(text, ",%s", figures[i].name);
-    mote_text_add(text, "\n");
+}
+
+/* Those that were added later. */
+static const char added[] = ",asked";
+
+char *mote_history_asked(const uint32_t frames[2], const char *ask, uint32_t step,
+                         double tolerance)
+{
+    mote_text text = {0};
+    mote_text_add(&text, "%s", "");
+    if (frames[0] == 0)
+        return text.data;
+    mote_text_add(&text, "%u-%u %s", frames[0], frames[1], ask[0] ? ask : "anything");
+    if (step > 0)
+        mote_text_add(&text, " step %u", step);
+    if (tolerance > 0)
+        mote_text_add(&text, " tolerance %.10g", tolerance);
+    return text.data;
 }
 
 static double value_of(const struct figure *figure, const mote_summary_row *row)
@@ -55,9 +77,11 @@ static double value_of(const struct figure *figure, const mote_summary_row *row)
     return MOTE_NONE;
 }
 
+/* columns: of the file, which a later version may have given more. */
 static void add_row(mote_text *text, const char *date, const char *commit, const char *why,
-                    const mote_summary_row *row)
+                    const mote_summary_row *row, size_t columns)
 {
+    char *asked = mote_history_asked(row->frame_range, row->ask, row->step, row->tolerance);
     add_plain(text, date);
     mote_text_add(text, ",");
     add_plain(text, commit);
@@ -74,35 +98,63 @@ static void add_row(mote_text *text, const char *date, const char *commit, const
         if (value == value)
             mote_text_add(text, "%.10g", value);
     }
+    mote_text_add(text, ",");
+    add_plain(text, asked);
+    for (size_t k = FIELDS; k < columns; ++k)
+        mote_text_add(text, ",");
     mote_text_add(text, "\n");
+    free(asked);
 }
 
-static mote_status check_header(const char *file, const char *text)
+/* *columns: how many a file has, FIELD_ASKED at least. */
+static mote_status check_header(const char *file, const char *text, size_t *columns)
 {
     mote_text header = {0};
     add_header(&header);
-    const bool begins = strncmp(text, header.data, header.size) == 0;
+    const size_t size = header.size, more = strlen(added);
+    const char *rest = strncmp(text, header.data, size) == 0 ? text + size : "";
     free(header.data);
-    if (begins)
-        return MOTE_OK;
-    return mote_fail(
-        MOTE_EINVAL,
-        "%s:1: not the header of a history; name a file that `mote history --add` made", file);
+    const bool known =
+        strncmp(rest, added, more) == 0 && (rest[more] == ',' || rest[more] == '\n');
+    if (rest[0] != '\n' && !known)
+        return mote_fail(
+            MOTE_EINVAL,
+            "%s:1: not the header of a history; name a file that `mote history --add` made",
+            file);
+    *columns = FIELD_ASKED;
+    for (; *rest != '\n' && *rest; ++rest)
+        *columns += *rest == ',' ? 1 : 0;
+    return MOTE_OK;
+}
+
+/* Adds the lines of a file of an older version, with the columns that it lacks. */
+static void add_widened(mote_text *text, const char *data)
+{
+    const char *more = added;
+    for (const char *line = data; *line; more = ",") {
+        const size_t length = strcspn(line, "\n");
+        mote_text_add(text, "%.*s%s\n", (int)length, line, more);
+        line += length + (line[length] == '\n' ? 1 : 0);
+    }
 }
 
 /* The history so far, with its last line terminated, or the header. */
-static mote_status begin_text(const char *file, mote_text *text)
+static mote_status begin_text(const char *file, mote_text *text, size_t *columns)
 {
+    *columns = FIELDS;
     if (access(file, F_OK) != 0) {
         add_header(text);
+        mote_text_add(text, "%s\n", added);
         return MOTE_OK;
     }
     char *data = NULL;
     size_t size = 0;
     mote_status status = mote_file_read(file, FILE_LIMIT, &data, &size);
     if (status == MOTE_OK)
-        status = check_header(file, data);
-    if (status == MOTE_OK)
+        status = check_header(file, data, columns);
+    if (status == MOTE_OK && *columns < FIELDS)
+        add_widened(text, data);
+    else if (status == MOTE_OK)
         mote_text_add(text, "%s%s", data, data[size - 1] == '\n' ? "" : "\n");
     free(data);
     return status;
@@ -122,10 +174,12 @@ mote_status mote_history_add(const char *file, const char *directory, const char
         const json_t *sessions = json_object_get(manifest, "sessions");
         const char *date = mote_text_at(json_array_get(sessions, 0), "started");
         mote_text text = {0};
-        status = begin_text(file, &text);
+        size_t columns = 0;
+        status = begin_text(file, &text, &columns);
         for (size_t i = 0; i < summary.count; ++i) {
             if (summary.rows[i].status == MOTE_CELL_OK)
-                add_row(&text, date, mote_text_at(manifest, "commit"), why, &summary.rows[i]);
+                add_row(&text, date, mote_text_at(manifest, "commit"), why, &summary.rows[i],
+                        columns);
         }
         if (status == MOTE_OK)
             status = mote_file_write(file, text.data, text.size);
@@ -136,10 +190,13 @@ mote_status mote_history_add(const char *file, const char *directory, const char
     return status;
 }
 
-/* Splits a line in place; false unless it has FIELDS fields. */
-static bool split(char *line, char *fields[FIELDS])
+/* Splits a line in place; false unless it has as many fields as the file has columns. A column
+   that the file lacks is empty. */
+static bool split(char *line, size_t columns, char *fields[FIELDS])
 {
+    static char none[] = "";
     size_t count = 0;
+    fields[FIELD_ASKED] = none;
     for (char *field = line; field; ++count) {
         char *comma = strchr(field, ',');
         if (comma)
@@ -148,7 +205,7 @@ static bool split(char *line, char *fields[FIELDS])
             fields[count] = field;
         field = comma ? comma + 1 : NULL;
     }
-    return count == FIELDS;
+    return count == columns;
 }
 
 /* Whether a field is empty or a number. */
@@ -162,9 +219,9 @@ static mote_status read_points(const char *file, mote_history *p)
 {
     const char *last_date = NULL;
     char *text = p->text;
-    size_t number = 1;
+    size_t number = 1, columns = 0;
     char *line = strchr(text, '\n');
-    const mote_status status = check_header(file, text);
+    const mote_status status = check_header(file, text, &columns);
     if (status != MOTE_OK)
         return status;
     size_t lines = 0;
@@ -177,10 +234,11 @@ static mote_status read_points(const char *file, mote_history *p)
         line = strchr(start, '\n');
         if (line)
             *line = '\0';
-        if (!split(start, fields))
-            return mote_fail(MOTE_EINVAL, "%s:%zu: not a line of a history; expected %d fields",
-                             file, number, FIELDS);
-        for (int k = FIELD_TOTAL; k < FIELDS; ++k) {
+        if (!split(start, columns, fields))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: not a line of a history; expected %zu fields", file,
+                             number, columns);
+        for (int k = FIELD_TOTAL; k < FIELD_ASKED; ++k) {
             if (!is_number(fields[k]))
                 return mote_fail(MOTE_EINVAL, "%s:%zu: %s: not a number; correct the line",
                                  file, number, fields[k]);
@@ -197,6 +255,7 @@ static mote_status read_points(const char *file, mote_history *p)
                                                      .commit = fields[FIELD_COMMIT],
                                                      .why = fields[FIELD_WHY],
                                                      .row = fields[FIELD_ROW],
+                                                     .asked = fields[FIELD_ASKED],
                                                      .time = has_ratio ? 1 / ratio : total,
                                                      .relative = has_ratio,
                                                      .reference = p->references - 1};
@@ -206,7 +265,19 @@ static mote_status read_points(const char *file, mote_history *p)
 
 bool mote_history_same_series(const mote_history_point *a, const mote_history_point *b)
 {
-    return a->relative == b->relative && strcmp(a->row, b->row) == 0;
+    return a->relative == b->relative && strcmp(a->row, b->row) == 0 &&
+           strcmp(a->asked, b->asked) == 0;
+}
+
+char *mote_history_title(const mote_history *history, const mote_history_point *point)
+{
+    for (size_t i = 0; i < history->count; ++i) {
+        const mote_history_point *other = &history->points[i];
+        if (strcmp(other->row, point->row) == 0 && strcmp(other->asked, point->asked) != 0)
+            return mote_format("%s, frames %s", point->row,
+                               point->asked[0] ? point->asked : "unknown");
+    }
+    return mote_format("%s", point->row);
 }
 
 bool mote_history_begins_series(const mote_history *history, size_t index)
@@ -256,6 +327,17 @@ static void mark_series(mote_history *h, const mote_history_point *start)
     }
 }
 
+/* What the lines of an older version were asked: the same as the next of their row. */
+static void complete_asked(mote_history *h)
+{
+    for (size_t i = h->count; i-- > 0;) {
+        for (size_t k = i + 1; k < h->count && h->points[i].asked[0] == '\0'; ++k) {
+            if (strcmp(h->points[k].row, h->points[i].row) == 0)
+                h->points[i].asked = h->points[k].asked;
+        }
+    }
+}
+
 mote_status mote_history_read(const char *file, mote_history *history)
 {
     size_t size = 0;
@@ -263,6 +345,7 @@ mote_status mote_history_read(const char *file, mote_history *history)
     mote_status status = mote_file_read(file, FILE_LIMIT, &history->text, &size);
     if (status == MOTE_OK)
         status = read_points(file, history);
+    complete_asked(history);
     for (size_t i = 0; status == MOTE_OK && i < history->count; ++i) {
         if (mote_history_begins_series(history, i))
             mark_series(history, &history->points[i]);
@@ -281,7 +364,9 @@ void mote_history_free(mote_history *history)
    commit". */
 static void add_series(const mote_history *h, const mote_history_point *start, mote_text *text)
 {
-    mote_gnuplot_block(text, start->row);
+    char *title = mote_history_title(h, start);
+    mote_gnuplot_block(text, title);
+    free(title);
     for (size_t i = 0; i < h->count; ++i) {
         const mote_history_point *here = &h->points[i];
         if (mote_history_same_series(here, start))

@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -94,6 +95,16 @@ bool mote_stored_common(const mote_stored_cell *a, size_t *i, const mote_stored_
             ++*k;
     }
     return *i < a->frames && *k < b->frames;
+}
+
+bool mote_stored_is_of(const mote_stored_cell *cell, uint64_t fingerprint, uint64_t faces)
+{
+    char text[20];
+    (void)snprintf(text, sizeof text, "%016" PRIx64, fingerprint);
+    if (strcmp(text, cell->fingerprint) != 0)
+        return false;
+    (void)snprintf(text, sizeof text, "%016" PRIx64, faces);
+    return cell->faces[0] == '\0' || strcmp(text, cell->faces) == 0;
 }
 
 double mote_stored_number(const mote_stored_cell *cell, const char *key)
@@ -232,10 +243,12 @@ static char *group_name(const mote_stored_cell *cell)
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group =
-        mote_format("%s %s %s %s %s %s %s %.17g step %u stride %u seed %" PRIu64 " on %s%s%s",
+        mote_format("%s %s %s %s %s %s %s %s %.17g step %u stride %u seed %" PRIu64
+                    " active %u-%u on %s%s%s",
                     cell->scenario, cell->cache, cell->method, parameters, cell->fingerprint,
-                    frames, cell->ask, mote_stored_number(cell, "tolerance"), cell->step,
-                    cell->stride, cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
+                    cell->faces, frames, cell->ask, mote_stored_number(cell, "tolerance"),
+                    cell->step, cell->stride, cell->seed, cell->active_first, cell->active_last,
+                    cell->machine, cell->jobs > 1 ? " jobs" : "",
                     json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
@@ -303,6 +316,7 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->active_last = (uint32_t)last;
     cell->first = frame_number(json_array_get(shown[2], 0));
     cell->last = frame_number(json_array_get(shown[2], 1));
+    cell->faces = mote_text_at(cell->json, "faces");
     cell->machine = mote_text_at(cell->json, "machine");
     cell->ask = mote_text_at(cell->json, "ask");
     cell->step = frame_number(json_object_get(cell->json, "step"));

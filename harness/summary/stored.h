@@ -26,7 +26,7 @@ typedef struct mote_stored_cell {
     json_t *json; /* the whole cell file */
     char *group;  /* equal for the replicates of one configuration on one scene */
     const char *id, *scenario, *fingerprint, *method, *cache; /* inside json */
-    const char *machine, *ask;                                /* inside json; "" if not
+    const char *faces, *machine, *ask;                        /* inside json; "" if not
                                                                  stored */
     json_t *parameters;                                       /* inside json */
     mote_cell_status status;
@@ -75,6 +75,10 @@ bool mote_stored_ran(const mote_stored_cell *cell);
    ++k) */
 bool mote_stored_common(const mote_stored_cell *a, size_t *i, const mote_stored_cell *b,
                         size_t *k);
+
+/* Whether a cell measured the scene with these hashes. A cell of an older version does not
+   store that of the faces: its vertices decide. */
+bool mote_stored_is_of(const mote_stored_cell *cell, uint64_t fingerprint, uint64_t faces);
 
 /* A number in a cell's file, or MOTE_NONE if it is null or missing. Bytes are whole, below
    2^62. */

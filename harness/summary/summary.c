@@ -158,21 +158,24 @@ static void make_rows(mote_summary *summary)
     }
 }
 
-/* Displayed digits of a fingerprint. */
+/* Displayed digits of a hash. */
 #define SHOWN_DIGITS 8
 
 /* Names the scene of a row by its scenario and, if several scenes have that name, by its
-   fingerprint: a file may have changed between two runs, or different folders may have files of
+   hashes: a file may have changed between two runs, or different folders may have files of
    one name. */
 static char *name_scene(const mote_summary *summary, const mote_summary_row *row)
 {
-    bool scenes = false, questions = false, steps = false, tolerances = false;
+    bool scenes = false, faces = false, intervals = false, questions = false, steps = false,
+         tolerances = false;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (strcmp(other->scenario, row->scenario) != 0)
             continue;
         const double a = row->tolerance, b = other->tolerance;
         scenes = scenes || strcmp(other->fingerprint, row->fingerprint) != 0;
+        faces = faces || strcmp(other->faces, row->faces) != 0;
+        intervals = intervals || mote_summary_by_interval(row, other) != 0;
         steps = steps || (row->step > 0 && row->step != other->step);
         questions = questions || strcmp(other->ask, row->ask) != 0;
         tolerances = tolerances || a < b || a > b || (a == a) != (b == b);
@@ -181,6 +184,11 @@ static char *name_scene(const mote_summary *summary, const mote_summary_row *row
     mote_text_add(&text, "%s", row->scenario);
     if (scenes)
         mote_text_add(&text, " (scene %.*s)", SHOWN_DIGITS, row->fingerprint);
+    else if (faces)
+        mote_text_add(&text, " (faces %.*s)", SHOWN_DIGITS,
+                      row->faces[0] ? row->faces : "unknown");
+    if (intervals)
+        mote_text_add(&text, " (active %u-%u)", row->active[0], row->active[1]);
     if (questions)
         mote_text_add(&text, " (asks for %s)", row->ask[0] ? row->ask : "anything");
     if (steps)

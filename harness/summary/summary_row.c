@@ -394,6 +394,15 @@ static int by_number(double a, double b)
     return (a == a) - (b == b);
 }
 
+int mote_summary_by_interval(const mote_summary_row *a, const mote_summary_row *b)
+{
+    for (int k = 0; k < 2 && a->bodies == 0; ++k) {
+        if (a->active[k] != b->active[k])
+            return a->active[k] < b->active[k] ? -1 : 1;
+    }
+    return 0;
+}
+
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
 {
     int order = strcmp(a->scenario, b->scenario);
@@ -403,6 +412,10 @@ int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
         order = strcmp(a->machine, b->machine);
     if (order == 0)
         order = strcmp(a->fingerprint, b->fingerprint);
+    if (order == 0)
+        order = strcmp(a->faces, b->faces);
+    if (order == 0)
+        order = mote_summary_by_interval(a, b);
     if (order == 0)
         order = strcmp(a->ask, b->ask);
     if (order == 0)
@@ -466,12 +479,19 @@ static double all_vertices(const mote_summary_row *row)
     return total > 0 ? total : (double)row->vertices[0] + (double)row->vertices[1];
 }
 
+static const char *seeds_of(const mote_stored_cell *cell)
+{
+    const json_t *fixed = json_object_get(cell->json, "fixed_seed");
+    return !fixed ? "" : json_is_true(fixed) ? "fixed" : "own";
+}
+
 /* Fills in what was measured, from the row's first cell. */
 static void describe(mote_summary_row *row)
 {
     const mote_stored_cell *cell = row->first;
     row->scenario = cell->scenario;
     row->fingerprint = cell->fingerprint;
+    row->faces = cell->faces;
     row->cache = cell->cache;
     row->machine = cell->machine;
     row->ask = cell->ask;
@@ -483,12 +503,15 @@ static void describe(mote_summary_row *row)
     row->given = is_given(cell);
     row->accounting = row->given ? "given" : "charged";
     row->told = mote_text_at(cell->json, "told");
+    row->seeds = seeds_of(cell);
     row->parameters = cell->parameters;
     row->n = mote_number_at(cell->parameters, "n");
     row->tolerance = mote_stored_number(cell, "tolerance");
     row->seed = cell->seed;
     row->frame_range[0] = cell->first;
     row->frame_range[1] = cell->last;
+    row->active[0] = cell->active_first;
+    row->active[1] = cell->active_last;
     row->stride = cell->stride;
     row->step = cell->step;
     row->jobs = cell->jobs;
@@ -500,6 +523,12 @@ static void describe(mote_summary_row *row)
     row->shapes = shapes >= 1 && shapes <= MOTE_BODIES_MAX ? (uint32_t)shapes : 0;
     row->near_pairs_wanted = mote_stored_number(cell, "near_pairs_wanted");
     row->frames = cell->frames;
+}
+
+void mote_summary_row_answers(mote_summary_row *row)
+{
+    count_contacts(row);
+    make_error(row, &row->error);
 }
 
 mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates)
@@ -521,11 +550,10 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
     const double vertices = all_vertices(&made);
     made.heap_bytes_per_vertex = vertices > 0 ? made.heap_live_bytes / vertices : MOTE_NONE;
-    count_contacts(&made);
+    mote_summary_row_answers(&made);
     make_counts(&made);
     make_processes(&made);
     make_times(&made);
-    make_error(&made, &made.error);
     make_impact(&made);
     return made;
 }

@@ -77,17 +77,19 @@ struct mote_summary_row {
                                 MOTE_CELL_STATUSES if a summary.json names none of these */
     bool given;              /* positions=given: its own time excludes deformation */
 
-    const char *scenario, *fingerprint, *cache, *machine, *ask, *method;
+    const char *scenario, *fingerprint, *faces, *cache, *machine, *ask, *method;
     char *label; /* "particle-paper:n=5": parameters that are not default */
     char *
         scene; /* "ww", or "ww (scene 0123abcd)" where another of that name is in the summary */
     const char *ending, *reason; /* the status as text; why it is not ok */
     const char *accounting;      /* "charged" or "given" */
     const char *told;            /* "field" or "positions"; "" if the cell does not store it */
+    const char *seeds;           /* "own" or "fixed"; "" if the cell does not store it */
     json_t *parameters;          /* owned by the cell or the summary.json */
     double n, tolerance;         /* the parameter n; the scenario's tolerance */
     uint64_t seed;
     uint32_t frame_range[2]; /* first and last of the frames requested */
+    uint32_t active[2];      /* the active interval; 0, 0: none */
     uint32_t stride, jobs;   /* jobs: cells that ran at the same time */
     uint32_t step;           /* frames that a question about impacts spans; 0: of others */
     uint32_t triangles[2], vertices[2];
@@ -131,6 +133,9 @@ struct mote_summary_row {
 /* Makes a row from its cells [replicates], without the ratios. */
 mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates);
 
+/* Sets a row's errors and contacts from its cells, of which `finished` succeeded. */
+void mote_summary_row_answers(mote_summary_row *row);
+
 /* The part of a frame's time that is compared: all of it, or all but deformation. */
 typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
 
@@ -160,9 +165,13 @@ bool mote_summary_row_measured(const mote_summary_row *row);
 bool mote_summary_contacts_right(const mote_summary_row *row);
 bool mote_summary_row_right(const mote_summary_row *row);
 
-/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question, its
-   step and its tolerance. 0:
-   the same frames and question on one machine. Different scenes are never compared. */
+/* The order by active intervals. Those of more than two bodies follow from the frames, and are
+   equal. */
+int mote_summary_by_interval(const mote_summary_row *a, const mote_summary_row *b);
+
+/* The order of scenes: by scenario, caches (hot first), machine, fingerprint, faces,
+   active interval and question, its step and its tolerance. 0: the same frames and question on
+   one machine. Different scenes are never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);
 
 /* The same, and then by the frames requested: earlier start first, then longer. */

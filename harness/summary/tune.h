@@ -20,7 +20,7 @@ typedef struct mote_tuned {
    which none succeeded are left out. The caller frees the array; it points into summary. */
 mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count);
 
-/* {"schema": 1, "rows": [{"scenario", "fingerprint", "accounting", "cache", "method",
+/* {"schema": 1, "rows": [{"scenario", "fingerprint", "faces", "accounting", "cache", "method",
    "configuration", "parameters", "right", "configurations", "stride", "total_ns", "deform_ns",
    "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]} */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);

@@ -225,7 +225,7 @@ TEST(figures_of_odd_cells_are_those_that_can_be)
     static const char *const wanted[] = {
         "\"name\": \"front-A_z_Z09-_______a_name_that_is_longer_than_the_file_of_a_figure_",
         "\"run\": \"20261121T102030.123456789012345-p1, commit 0123456+\"",
-        "tt: other frames than those measured",
+        "tt: other frames or faces than those measured",
         "\"scenario\": \"s\"",
     };
     assert_true(fault_lines_run(figures, 1));

@@ -95,8 +95,9 @@ static inline void remove_beside(void)
     assert_int_equal(system("rm old/[im]*.json new/[im]*.json"), 0);
 }
 
-/* Puts the members of an object, written with ' for ", into the first row of a run's file. */
-static inline void change_row(const char *directory, const char *name, const char *members)
+/* Puts the members of an object, written with ' for ", into a row of a run's file. */
+static inline void change_row_at(const char *directory, const char *name, size_t at,
+                                 const char *members)
 {
     char plain[1024];
     json_t *summary = NULL;
@@ -106,10 +107,28 @@ static inline void change_row(const char *directory, const char *name, const cha
     json_t *change = json_loads(plain, 0, NULL);
     assert_non_null(change);
     assert_int_equal(mote_record_read_json(directory, name, &summary), MOTE_OK);
-    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), at);
     assert_int_equal(json_object_update_recursive(row, change), 0);
     json_decref(change);
     put(directory, name, summary);
+}
+
+/* The same of the first row. */
+static inline void change_row(const char *directory, const char *name, const char *members)
+{
+    change_row_at(directory, name, 0, members);
+}
+
+/* Adds a row like the first one, but for these members, to a run, before its own. */
+static inline void add_row(const char *directory, const char *members)
+{
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(directory, "summary.json", &summary), MOTE_OK);
+    json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_insert_new(rows, 0, json_deep_copy(json_array_get(rows, 0))),
+                     0);
+    put(directory, "summary.json", summary);
+    change_row(directory, "summary.json", members);
 }
 
 /* Runs mote compare OLD NEW OPTIONS, which must end with this status and print this text. */

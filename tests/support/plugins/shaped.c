@@ -30,6 +30,8 @@ static int is(const char *name)
 static mote_status update(void *state, const mote_frame *frame)
 {
     (void)state;
+    if (frame->number >= 2 && is("update-lacks-memory"))
+        return mote_fail(MOTE_ENOMEM, "no memory for the update");
     return is("update-fails") && frame->number >= 2
                ? mote_fail(MOTE_ENUMERIC, "the update fails")
                : MOTE_OK;

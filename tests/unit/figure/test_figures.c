@@ -428,7 +428,7 @@ TEST(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused)
         mote_figure_scene_close(&scene);
         assert_int_equal(status, i == 0 ? MOTE_OK : MOTE_EINVAL);
     }
-    assert_non_null(strstr(mote_error_text(), "tt: other frames than those measured"));
+    assert_non_null(strstr(mote_error_text(), "tt: other frames or faces than those measured"));
     mote_summary_free(&summary);
 }
 

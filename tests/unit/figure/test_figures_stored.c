@@ -221,7 +221,7 @@ TEST(film_of_letters_marks_contacts)
     free(none);
     file_put("several/film/letters.json",
              "{\"purpose\": \"others\", \"like\": \"letters\", \"frames\": 11}\n");
-    mote_expect(0, "other frames than those measured", "figures several");
+    mote_expect(0, "other frames or faces than those measured", "figures several");
     file_put("several/film/letters.json", FILM);
     /* A second method: which film is it? */
     mote_expect(

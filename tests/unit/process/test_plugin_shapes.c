@@ -152,3 +152,20 @@ TEST(a_method_that_fails_in_a_frame_says_why)
                     "race-child --plugin " MOTE_SHAPED " < requests");
     }
 }
+
+/* Memory that runs out is no fault of the method: the simulation is not kept as crashed, and is
+   simulated again by the same command. */
+TEST(a_simulation_whose_memory_runs_out_is_simulated_again)
+{
+    static const char simulate[] = "simulate plain.json --method certified --method shaped-1 "
+                                   "--jobs 1 --out s --plugin " MOTE_SHAPED;
+    char text[1024];
+    (void)snprintf(text, sizeof text, SCENARIO, "");
+    file_put("plain.json", text);
+    set_shape("update-lacks-memory");
+    mote_expect(6, "no memory for the update", "%s", simulate);
+    assert_null(strstr(said, "crashed"));
+    assert_int_equal(folder_count("s/simulations", ".json"), 1); /* certified's */
+    set_shape("sound");
+    mote_expect(0, "plan: 2 simulations, 1 of them done", "%s", simulate);
+}

@@ -50,19 +50,29 @@ static int put_good(void)
 
 TEST_EACH(put_good, NULL);
 
-/* Runs a bout of two programs in this folder. */
-static mote_status fight(const char *a, const char *b, mote_bout_result *result)
+/* Runs a bout of two programs in this folder, over a cell of each scenario [count]. */
+static mote_status fight_over(const char *a, const char *b, const char *const *scenarios,
+                              size_t count, mote_bout_result *results)
 {
     mote_random random = {5};
     mote_bout bout;
-    const mote_race_cell cell = {.scenario = "s", .method = "m", .first = 1, .seed = 1};
     const mote_bout_options options = {
         .program = {a, b}, .core = -1, .timeout = 20, .check_scene = true, .random = &random};
     mote_status status = mote_bout_start(&options, &bout);
-    if (status == MOTE_OK)
-        status = mote_bout_run(&bout, &cell, result);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        const mote_race_cell cell = {
+            .scenario = scenarios[i], .method = "m", .first = 1, .seed = 1};
+        status = mote_bout_run(&bout, &cell, &results[i]);
+    }
     mote_bout_stop(&bout);
     return status;
+}
+
+/* The same of one cell. */
+static mote_status fight(const char *a, const char *b, mote_bout_result *result)
+{
+    static const char *const scenario[] = {"s"};
+    return fight_over(a, b, scenario, 1, result);
 }
 
 TEST(an_answer_that_is_wrong_ends_the_bout_and_names_its_side)
@@ -109,6 +119,23 @@ TEST(an_answer_that_is_wrong_ends_the_bout_and_names_its_side)
          unread,
          false},
         {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5,0.5:0'"}, unread, false},
+        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1,nan:0'"},
+         unread,
+         false},
+        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:x:1:2,nan:0'"},
+         unread,
+         false},
+        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0::2,nan:0'"},
+         unread,
+         false},
+        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1:2:3,nan:0'"},
+         unread,
+         false},
+        {{.cell = "say 'ok\\t0\\t1\\t2\\t5'"}, unread, false},
+        {{.cell = "say 'ok\\t0\\t1\\t2\\tx\\tdistance\\t0\\t0'"}, unread, false},
+        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t-1\\t0'"}, unread, false},
+        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t0\\tnone'"}, unread, false},
+        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\ta_question_that_is_long\\t0\\t0'"}, unread, false},
         {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "exit 7"}, "status 7", false},
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
@@ -134,11 +161,68 @@ TEST(racers_of_other_scenes_are_not_compared)
     assert_int_equal(fight("./good", "./other", &result), MOTE_OK);
     assert_false(result.same_scene);
     assert_int_equal(result.passes, 0);
+#define SCENE(faces, asked)                                                                    \
+    {                                                                                          \
+        .cell = "say 'ok\\t7\\t1\\t2\\t" faces "\\t" asked "'"                                 \
+    }
+    /* An older program does not say its faces and its question: these may be any. */
+    static const struct {
+        script a, b;
+        bool same;
+    } rows[] = {
+        {SCENE("5", "impact\\t3\\t0.5"), SCENE("5", "impact\\t3\\t0.5"), true},
+        {SCENE("5", "impact\\t3\\t0.5"), SCENE("6", "impact\\t3\\t0.5"), false},
+        {SCENE("5", "impact\\t3\\t0.5"), SCENE("5", "contact\\t3\\t0.5"), false},
+        {SCENE("5", "impact\\t3\\t0.5"), SCENE("5", "impact\\t4\\t0.5"), false},
+        {SCENE("5", "impact\\t3\\t0.5"), SCENE("5", "impact\\t3\\t0.25"), false},
+        {SCENE("5", "impact\\t3\\t0.5"), {.cell = "say 'ok\\t7\\t1\\t2'"}, true},
+        {{.cell = "say 'ok\\t7\\t1\\t2'"}, SCENE("5", "impact\\t3\\t0.5"), true},
+        {{.cell = "say 'ok\\t8\\t1\\t2'"}, SCENE("5", "impact\\t3\\t0.5"), false},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%zu", i);
+        put_racer("a", rows[i].a);
+        put_racer("b", rows[i].b);
+        assert_int_equal(fight("./a", "./b", &result), MOTE_OK);
+        assert_true(result.same_scene == rows[i].same);
+        assert_true((result.passes > 0) == rows[i].same);
+        if (rows[i].same) {
+            assert_string_equal(result.scene.ask, "impact");
+            assert_true(result.scene.step == 3 && result.scene.tolerance == 0.5);
+        }
+    }
     put_racer("longer", (script){.cell = "say 'ok\\t0\\t1\\t3'"});
     assert_int_equal(fight("./good", "./longer", &result), MOTE_OK);
     assert_true(result.side[MOTE_RACE_B].refused);
     assert_string_equal(result.side[MOTE_RACE_B].reason,
                         "the scenario has another number of frames");
+}
+
+/* Racers number the cells that they opened, those that are then left out as well. */
+TEST(a_cell_of_other_frames_does_not_shift_those_after_it)
+{
+    static const char *const scenarios[] = {"longer", "s", "longer", "s"};
+    static const script numbered = {
+        .cell =
+            "case $line in *longer*) say 'ok\\t0\\t1\\t3' ;; *) say 'ok\\t0\\t1\\t2' ;; esac",
+        .run = "set -- $line; [ $(($2 % 2)) = 1 ] && say 'ok\\t1\\t-\\t" TIMES
+               "' || say 'no\\tcell of another scenario'"};
+    put_racer("numbered", numbered);
+    for (int side = MOTE_RACE_A; side <= MOTE_RACE_B; ++side) {
+        mote_bout_result results[ROWS_OF(scenarios)];
+        const char *const programs[] = {side == MOTE_RACE_A ? "./numbered" : "./good",
+                                        side == MOTE_RACE_A ? "./good" : "./numbered"};
+        test_row("side %d", side);
+        assert_int_equal(
+            fight_over(programs[0], programs[1], scenarios, ROWS_OF(scenarios), results),
+            MOTE_OK);
+        for (size_t i = 0; i < ROWS_OF(scenarios); ++i) {
+            const mote_race_side *sides = results[i].side;
+            assert_true(sides[MOTE_RACE_B].refused == (i % 2 == 0));
+            assert_false(sides[MOTE_RACE_A].refused);
+            assert_int_equal(results[i].frames, i % 2 == 0 ? 0 : 2);
+        }
+    }
 }
 
 TEST(a_bout_adds_counts_and_compares_answers)
@@ -180,6 +264,43 @@ TEST(a_bout_adds_counts_and_compares_answers)
             assert_true(result.counts[at].sum[0] == counts[k].sum[0] &&
                         result.counts[at].sum[1] == counts[k].sum[1]);
         }
+    }
+}
+
+/* Impacts, and the pairs of more than two bodies: equal distances and contacts are not all. An
+   older program does not tell the rest, which is then not compared. */
+TEST(a_bout_compares_more_than_distances_and_contacts)
+{
+#define SET "00000000000000ff"
+    static const struct {
+        const char *a, *b; /* of the second frame; L is 2 */
+        double worst;
+    } rows[] = {
+        {"nan:1:0:0.25:0.5", "nan:1:0:0.25:0.5", 0},
+        {"nan:1:0:0.25:0.5", "nan:1:0:0.25:0.75", 0.25},
+        {"nan:1:0:0.25:0.5", "nan:1:0:0.125:0.5", 0.125},
+        {"nan:0:0:nan:nan", "nan:0:0:nan:nan", 0},
+        {"nan:1:0:0.25:0.5", "nan:1:0:nan:nan", HUGE_VAL},
+        {"nan:1:0:0.25:0.5", "nan:1", 0},
+        {"0.5:1:" SET ":4:nan", "0.5:1:" SET ":4:nan", 0},
+        {"0.5:1:" SET ":4:nan", "0.5:1:" SET ":4.5:nan", 0.5},
+        {"0.5:1:" SET ":4:nan", "1:1:" SET ":4.125:nan", 0.25},
+        {"0.5:1:" SET ":4:nan", "0.5:1:fe:4:nan", HUGE_VAL},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_bout_result result;
+        const char *const sides[] = {rows[i].a, rows[i].b};
+        for (int side = 0; side < 2; ++side) {
+            char answers[128], run[64];
+            (void)snprintf(answers, sizeof answers, "say 'ok\\tnan:0,%s'", sides[side]);
+            (void)snprintf(run, sizeof run, "say 'ok\\t%d\\t-\\t" TIMES "'", side);
+            put_racer(side ? "b" : "a",
+                      (script){.cell = "say 'ok\\t7\\t2\\t2'", .run = run, .answers = answers});
+        }
+        test_row("%s, %s", rows[i].a, rows[i].b);
+        assert_int_equal(fight("./a", "./b", &result), MOTE_OK);
+        assert_true(result.worst == rows[i].worst);
+        assert_int_equal(result.worst_frame, rows[i].worst > 0 ? 2 : 0);
     }
 }
 

@@ -42,14 +42,14 @@ TEST(keys_of_a_row_may_stand_in_any_order)
     static const char *const same[] = {"ww/a:n=5;b=c/hot", "ww/a:b=c,n=5/hot",
                                        "ww/a:b=c;n=5/hot", "ww/a:n=5,b=c/hot"};
     for (size_t i = 0; i < ROWS_OF(same); ++i) {
-        char *key = mote_race_row_key(same[i]);
+        char *key = mote_race_row_key(same[i], "");
         assert_string_equal(key, "ww/a:b=c,n=5/hot");
         free(key);
     }
     static const char *const alone[] = {"ww/a/hot", "ww",           "",           "/",
                                         "a:b",      "ww/a:n=5/hot", "ww/hot:n=5", "a:b=c"};
     for (size_t i = 0; i < ROWS_OF(alone); ++i) {
-        char *key = mote_race_row_key(alone[i]);
+        char *key = mote_race_row_key(alone[i], "");
         assert_string_equal(key, alone[i]);
         free(key);
     }
@@ -105,6 +105,65 @@ TEST(points_lead_to_commits_and_reasons)
     assert_int_equal(test_count(page, "src="), 0);
     assert_int_equal(test_count(page, "nan"), 0);
     free(page);
+}
+
+/* A race of one row, "ww/a:b=c,n=5/hot". asked: "", or its JSON with the comma. */
+static void put_race(const char *file, const char *date, const char *asked)
+{
+    char text[1024];
+    (void)snprintf(text, sizeof text,
+                   "{\"schema\": 1, \"date\": \"%s\", \"rows\": [{\"name\": "
+                   "\"ww/a:b=c,n=5/hot\"%s, \"ratio\": 2, \"verdict\": \"slower\"}]}\n",
+                   date, asked);
+    file_put(file, text);
+}
+
+/* Races and references of other frames or questions have charts of their own. Those of older
+   versions do not say what they were asked, and are taken for the same as others. */
+TEST(rows_that_were_asked_something_else_are_other_rows)
+{
+    static const char first[] = ", \"asked\": \"1-9 distance\"",
+                      second[] = ", \"asked\": \"1-9 contact\"",
+                      named[] = ", \"asked\": \"1-9 distance\", \"scenario\": \"ww\", "
+                                "\"method\": \"a:n=5,b=c\", \"cache\": \"hot\"";
+    static const struct {
+        const char *line; /* of the reference, last column */
+        const char *races[3];
+        int titles, charts;
+    } rows[] = {
+        {"", {"", "", ""}, 1, 2},
+        {"", {first, "", first}, 1, 2},
+        {"", {"", "", second}, 1, 2},
+        {"1-9 distance", {"", "", ""}, 1, 2},
+        {"1-9 distance", {first, named, ""}, 1, 2},
+        {"1-9 distance", {first, second, first}, 2, 3},
+        {"1-8 distance", {first, second, first}, 3, 3},
+        {"1-9 contact", {first, first, first}, 2, 2},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char text[512], file[32];
+        test_row("%zu", i);
+        (void)snprintf(text, sizeof text,
+                       "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,"
+                       "heap_live_bytes,error_p99,asked\n1,c,w,ww/a:n=5;b=c/hot,,2,,,,,,%s\n",
+                       rows[i].line);
+        file_put("h.csv", text);
+        for (int k = 0; k < 3; ++k) {
+            (void)snprintf(file, sizeof file, "perf-ab/%d.json", k);
+            put_race(file, file, rows[i].races[k]);
+        }
+        assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);
+        char *page = file_text("h.html");
+        assert_int_equal(test_count(page, "<h2>ww/"), rows[i].titles);
+        assert_int_equal(test_count(page, "<figure>"), rows[i].charts);
+        for (int k = 1; k <= 3; ++k) {
+            (void)snprintf(file, sizeof file, "href=\"#race-%d\"", k);
+            assert_int_equal(test_count(page, file), 1);
+        }
+        if (rows[i].titles > 2)
+            assert_int_equal(test_count(page, ", frames 1-9 contact</h2>"), 1);
+        free(page);
+    }
 }
 
 /* A race without an interval has no whisker, one that lacks the row no point. */

@@ -296,3 +296,103 @@ TEST(scenes_of_many_bodies_race_and_threads_do_not)
                 "race %s %s " SCENARIO " --method certified:threads=2", MOTE_PROGRAM,
                 MOTE_PROGRAM);
 }
+
+/* Three triangles on one edge, which --strict refuses; scenarios that name the file, one of
+   them from a folder beside it. */
+static void put_books(void)
+{
+    static const char scenario[] =
+        "{\"purpose\": \"two books\", \"frames\": 4, \"ask\": \"distance\", \"bodies\": "
+        "[{\"file\": \"%sbook.obj\"}, {\"file\": \"%sbook.obj\", \"motion\": [{\"frame\": 1, "
+        "\"position\": [3, 0, 0]}]}]}\n";
+    static const char *const places[][2] = {{"books.json", ""}, {"in/books.json", "../"}};
+    assert_int_equal(mkdir("in", 0755), 0);
+    file_put("book.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\n"
+                         "f 1 2 3\nf 2 1 4\nf 1 2 5\n");
+    for (size_t i = 0; i < ROWS_OF(places); ++i) {
+        char text[512];
+        (void)snprintf(text, sizeof text, scenario, places[i][1], places[i][1]);
+        file_put(places[i][0], text);
+    }
+}
+
+/* What the user says of all commands holds for the programs that race as well. */
+TEST(racers_are_told_what_may_be_read)
+{
+    static const struct {
+        const char *before, *scenario, *says;
+        int status;
+    } rows[] = {
+        {"", "books.json", "books.json/aabb-tree/hot", 0},
+        {"--strict", "books.json", "non-manifold", 4},
+        {"", "in/books.json", "lies outside of the scenario's folder", 4},
+        {"--allow .", "in/books.json", "books.json/aabb-tree/hot", 0},
+        {"--allow . --strict", "in/books.json", "non-manifold", 4},
+    };
+    put_books();
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%s %s", rows[i].before, rows[i].scenario);
+        mote_expect(rows[i].status, rows[i].says,
+                    "%s race %s %s %s --method aabb-tree --budget 60 --until 50%% --real 50%%",
+                    rows[i].before, MOTE_PROGRAM, MOTE_PROGRAM, rows[i].scenario);
+    }
+}
+
+/* `instructions` starts this program under valgrind, of which this one keeps the words. */
+TEST(programs_whose_instructions_are_counted_are_told_what_may_be_read)
+{
+    static const char counts[] = "instructions in/books.json --frames 1-2 --method aabb-tree";
+    char path[512], words[2048], here[1024];
+    put_books();
+    put_program("valgrind", "#!/bin/sh\nfor a; do case $a in --callgrind-out-file=*)\n"
+                            "printf 'x\\ntotals: 40\\n' > \"${a#*=}\" ;; esac; done\n"
+                            "echo \"$@\" > words\n");
+    assert_non_null(getcwd(here, sizeof here));
+    (void)snprintf(path, sizeof path, ".:%s", getenv("PATH"));
+    (void)snprintf(words, sizeof words, "mote --allow %s %s --inside", here, counts);
+    assert_int_equal(setenv("PATH", path, 1), 0);
+    mote_expect(0, "20 instructions a frame", "--allow . %s --out .", counts);
+    char *told = file_text("words");
+    if (!strstr(told, words))
+        fail_msg("not \"%s\" but:\n%s", words, told);
+    free(told);
+    mote_expect(0, "20 instructions a frame",
+                "--strict instructions " SCENARIO " --frames 1-2 --method aabb-tree --out .");
+    told = file_text("words");
+    assert_non_null(strstr(told, "mote --strict instructions"));
+    free(told);
+}
+
+/* Methods of a library are raced if both programs load it. */
+TEST(racers_load_libraries)
+{
+    mote_expect(0, "/plugin-points/hot",
+                "race %s %s " SCENARIO " --frames 1-9 --plugin %s --method plugin-points "
+                "--budget 60 --until 50%% --real 50%%",
+                MOTE_PROGRAM, MOTE_PROGRAM, MOTE_RACE_PLUGIN);
+    assert_null(strstr(said, "unknown method"));
+}
+
+/* A row says which frames it is about where another one has the same name, and its JSON what it
+   was asked. */
+TEST(rows_of_other_frames_have_names_of_their_own)
+{
+    mote_expect(0, SCENARIO "@1-9/aabb-tree/hot",
+                "race %s %s " SCENARIO "@1-9 " SCENARIO "@11-20 " SCENARIO
+                " --method aabb-tree "
+                "--budget 60 --until 50%% --real 50%% --out race.json",
+                MOTE_PROGRAM, MOTE_PROGRAM);
+    assert_non_null(strstr(said, SCENARIO "@11-20/aabb-tree/hot"));
+    assert_non_null(strstr(said, SCENARIO "/aabb-tree/hot"));
+    char *json = file_text("race.json");
+    static const char *const wanted[] = {"\"asked\": \"1-9 distance\"",
+                                         "\"asked\": \"11-20 distance\"",
+                                         "\"asked\": \"1-60 distance\""};
+    for (size_t i = 0; i < ROWS_OF(wanted); ++i)
+        assert_int_equal(test_count(json, wanted[i]), 1);
+    free(json);
+    mote_expect(0, SCENARIO "/aabb-tree/hot",
+                "race %s %s " SCENARIO "@1-9 --method aabb-tree "
+                "--budget 60 --until 50%% --real 50%%",
+                MOTE_PROGRAM, MOTE_PROGRAM);
+}

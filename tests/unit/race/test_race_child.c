@@ -5,11 +5,24 @@
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define CELL(first, last, print, method)                                                       \
     "cell\tletters.json\t" #first "\t" #last "\thot\t1\t" #print "\t" method "\n"
+
+static void put_box(const char *name, double near)
+{
+    char text[512];
+    (void)snprintf(text, sizeof text,
+                   "{\"purpose\": \"letters in a box\", \"frames\": 4, \"ask\": \"distance\",\n"
+                   "\"bodies\": {\"count\": 6, \"seed\": 1, \"box\": [3, 3, 3], \"near\": %g,\n"
+                   "\"speed\": 0.006, \"spin\": 0.8,\n"
+                   "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]}}\n",
+                   near);
+    file_put(name, text);
+}
 
 /* Two small letters that pass each other without touching. */
 static int put_files(void)
@@ -39,6 +52,15 @@ static int put_files(void)
              "\"bodies\": {\"count\": 6, \"seed\": 1, \"near_pairs\": 1, \"near\": 0.2,\n"
              "\"speed\": 0.006, \"spin\": 0.8,\n"
              "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]}}\n");
+    /* The same a little later, still between frames 3 and 5. */
+    file_put("later.json",
+             "{\"purpose\": \"one letter flies into another\", \"frames\": 5, \"ask\": "
+             "\"impact\", \"step\": 2,\n\"bodies\": [{\"letter\": \"T\", \"triangles\": "
+             "400},\n{\"letter\": \"T\", \"triangles\": 400, \"motion\": [{\"frame\": 1, "
+             "\"position\": [8, 0, 0]}, {\"frame\": 5, \"position\": [-0.8, 0, 0]}]}]}\n");
+    /* The same bodies in one box: more pairs are near in the second. */
+    put_box("box.json", 0.5);
+    put_box("wide.json", 1.5);
     file_put("odd.json", "{\"two\\nlines\": 1}\n");
     return 0;
 }
@@ -138,7 +160,8 @@ TEST(cells_of_one_scene_are_served_side_by_side)
     char print[2][40], told[2][80];
     unsigned last[2];
     static const char format[] =
-        "mote-race\t1\nok\t%39s\t%*s\t%u\nok\t%39s\t%*s\t%u\n%*[^\n]\nok\t%*[^\n]\nok\t%79s\n"
+        "mote-race\t1\nok\t%39s\t%*s\t%u%*[^\n]\nok\t%39s\t%*s\t%u%*[^\n]\n%*[^\n]\n"
+        "ok\t%*[^\n]\nok\t%79s\n"
         "ok\t%*[^\n]\nok\t%79s\n";
     assert_int_equal(
         sscanf(heard, format, print[0], &last[0], print[1], &last[1], told[0], told[1]), 6);
@@ -172,8 +195,16 @@ TEST(impacts_are_raced)
     char *heard = answers_to("cell\tpass.json\t1\t0\thot\t1\t0\tcertified\nrun\t0\t1\t3\n"
                              "answers\t0\ncell\tpass.json\t1\t4\thot\t1\t0\tcertified\n"
                              "cell\tpass.json\t1\t0\thot\t1\t0\tstream\n");
-    assert_non_null(strstr(heard, "\t3\nok\t")); /* the last of five frames that asks */
-    assert_non_null(strstr(heard, "\nok\tnan:0,nan:1,nan:1\n"));
+    /* The last of five frames that asks, and the question. */
+    assert_non_null(strstr(heard, "\t3\t0000000000000000\timpact\t2\t0\nok\t"));
+    const char *told = strstr(heard, "\nok\tnan:0:0000000000000000:nan:nan,nan:1:");
+    assert_non_null(told);
+    /* They meet in the same frame, asked about from two: half a question earlier. */
+    double from[2], to[2];
+    assert_int_equal(sscanf(told, "\nok\tnan:0:%*x:nan:nan,nan:1:%*x:%lf:%lf,nan:1:%*x:%lf:%lf",
+                            &from[0], &to[0], &from[1], &to[1]),
+                     4);
+    assert_true(from[0] <= to[0] && to[0] < 1 && fabs(to[0] - to[1] - 0.5) < 1e-6);
     assert_non_null(strstr(
         heard, "no\tframes 1-4: outside pass.json; it has frames 1-3 from which it asks\n"));
     assert_non_null(strstr(heard, "no\tstream does not answer impacts"));
@@ -182,6 +213,41 @@ TEST(impacts_are_raced)
                 "race %s %s pass.json --method certified --budget 60 --until 20%% --real 20%%",
                 MOTE_PROGRAM, MOTE_PROGRAM);
     assert_null(strstr(said, "failed"));
+}
+
+/* The hash of a block's answers and the last line, the answers. */
+static void read_block(const char *cell, int frame, char hash[17], char answers[512])
+{
+    char requests[256];
+    (void)snprintf(requests, sizeof requests, "%srun\t0\t%d\t1\nanswers\t0\n", cell, frame);
+    char *heard = answers_to(requests);
+    assert_int_equal(
+        sscanf(heard, "%*[^\n]\n%*[^\n]\nok\t%16s\t%*[^\n]\nok\t%511s", hash, answers), 2);
+    free(heard);
+}
+
+/* Two impacts at other times of one question, and near pairs beside the closest one, which is
+   the same in both scenes: every answer is in the hash by which blocks are compared. */
+TEST(all_answers_are_hashed_and_told)
+{
+    static const char *const cells[][2] = {
+        {"cell\tpass.json\t3\t0\thot\t1\t0\tcertified\n",
+         "cell\tlater.json\t3\t0\thot\t1\t0\tcertified\n"},
+        {"cell\tbox.json\t1\t0\thot\t1\t0\tcertified\n",
+         "cell\twide.json\t1\t0\thot\t1\t0\tcertified\n"},
+    };
+    for (size_t i = 0; i < ROWS_OF(cells); ++i) {
+        char hash[2][17], answers[2][512];
+        test_row("%s", cells[i][0]);
+        for (int k = 0; k < 2; ++k)
+            read_block(cells[i][k], i == 0 ? 3 : 1, hash[k], answers[k]);
+        assert_string_not_equal(hash[0], hash[1]);
+        /* Distance and contact are the same. */
+        const size_t same = strcspn(strchr(answers[0], ':') + 1, ":") +
+                            (size_t)(strchr(answers[0], ':') + 1 - answers[0]);
+        assert_int_equal(strncmp(answers[0], answers[1], same), 0);
+        assert_string_not_equal(answers[0], answers[1]);
+    }
 }
 
 TEST(a_child_has_256_cells_at_most)

@@ -118,6 +118,20 @@ TEST(causes_are_told_as_far_as_counts_and_instructions_show_them)
     }
 }
 
+/* Times of impact have no length. */
+TEST(impacts_that_differ_are_told_as_parts_of_the_question)
+{
+    mote_race_row row = make_row(MOTE_VERDICT_SAME, 1);
+    mote_race race = race_of(&row, 1);
+    (void)snprintf(row.scene.ask, sizeof row.scene.ask, "impact");
+    row.worst = 0.25;
+    row.worst_frame = 17;
+    mote_race_explain(&race);
+    assert_string_equal(row.what,
+                        "answers differ by up to 0.25 of the question's time, at frame 17");
+    free_rows(&row, 1);
+}
+
 static void put_program(const char *name, const char *text)
 {
     file_put(name, text);

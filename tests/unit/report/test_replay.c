@@ -338,6 +338,46 @@ static size_t notes_with(const json_t *data, const char *text)
     return count;
 }
 
+/* What is not shown says why: impacts are no answers about frames, and the same vertices with
+   other faces are another scenario. */
+TEST(replay_of_impacts_or_of_other_faces_says_why_there_is_none)
+{
+    static const struct {
+        const char *run, *changes, *note;
+    } rows[] = {
+        {"run ./five.json --step 2 --method certified", NULL, "asks for impacts"},
+        {"run ./square.json --method certified", "f 1 2 4\nf 2 3 4\n", "fingerprint"},
+        {"run ./square.json --method certified", NULL, NULL},
+    };
+#define CORNERS "v 0 0 0\nv 1 0 0.1\nv 1 1 0\nv 0 1 0.1\n"
+    file_put("square.json",
+             "{\"purpose\": \"p\", \"frames\": 3, \"ask\": \"distance\", \"bodies\": [\n"
+             "{\"file\": \"square.obj\"}, {\"file\": \"square.obj\", \"motion\":\n"
+             " [{\"frame\": 1, \"position\": [0, 0, 1]}]}]}\n");
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_report other;
+        json_t *root = NULL;
+        char directory[] = "none-0", *text;
+        directory[5] = (char)('0' + i);
+        test_row("%zu", i);
+        file_put("square.obj", CORNERS "f 1 2 3\nf 1 3 4\n");
+        mote_expect(0, "", "%s --replicates 1 --out %s", rows[i].run, directory);
+        if (rows[i].changes) {
+            text = mote_format("%s%s", CORNERS, rows[i].changes);
+            file_put("square.obj", text);
+            free(text);
+        }
+        assert_int_equal(mote_report_gather(directory, &other), MOTE_OK);
+        assert_int_equal(mote_replay_json(&other, &root), MOTE_OK);
+        const size_t notes = json_array_size(json_object_get(root, "notes"));
+        assert_int_equal(json_array_size(json_object_get(root, "scenes")), !rows[i].note);
+        assert_int_equal(notes, rows[i].note != NULL);
+        assert_true(!rows[i].note || notes_with(root, rows[i].note) == 1);
+        json_decref(root);
+        mote_report_free(&other);
+    }
+}
+
 /* From the full size down: first particles, then tracks are left out, each named, until not
    even the bodies fit. */
 TEST(replay_write_of_any_budget_names_all_that_is_left_out)

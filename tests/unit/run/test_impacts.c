@@ -115,7 +115,7 @@ TEST(impact_truth_is_read_from_its_file_unless_that_was_changed)
     assert_int_equal(mote_impact_truth_load_or_compute(scenario, 9, ".", &made), MOTE_OK);
     assert_int_equal(mote_impact_truth_load_or_compute(scenario, 9, ".", &read), MOTE_OK);
     assert_memory_equal(made->first, read->first, made->gaps * sizeof *made->first);
-    static const char path[] = "truth/p-0000000000000009-impacts.csv";
+    char *path = mote_impact_truth_path(".", scenario, 9);
     char *text = NULL;
     size_t size = 0;
     assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
@@ -126,6 +126,7 @@ TEST(impact_truth_is_read_from_its_file_unless_that_was_changed)
     assert_int_equal(mote_impact_truth_load_or_compute(scenario, 9, ".", &again), MOTE_OK);
     assert_memory_equal(made->first, again->first, made->gaps * sizeof *made->first);
     free(text);
+    free(path);
     mote_impact_truth_destroy(made);
     mote_impact_truth_destroy(read);
     mote_impact_truth_destroy(again);
@@ -197,7 +198,7 @@ TEST(impact_truth_of_a_step_is_that_of_its_first_gap_with_an_impact)
 /* A file that is whole but says something else than the scenario's truth may. */
 TEST(impact_truth_that_cannot_be_right_is_computed_anew)
 {
-    static const char first[] = "# impacts of two, fingerprint 0000000000000005, tolerance ",
+    static const char first[] = "# impacts of two, fingerprint 0000000000000005, faces ",
                       columns[] = "frame,first\n";
     static const struct {
         const char *unsampled, *rest;
@@ -210,8 +211,8 @@ TEST(impact_truth_that_cannot_be_right_is_computed_anew)
         {"0\n", "frame,first\n1,nan\n"}, {"0\n", "frame,first\n1,0.5\n2,0.5\n"},
         {"0\n", "frame,first\n"},
     };
-    static const char path[] = "truth/two-0000000000000005-impacts.csv";
     mote_scenario *scenario = load_two("-3, 0.2, 0.2", "3, 0.2, 0.2");
+    char *path = mote_impact_truth_path(".", scenario, 5);
     mote_impact_truth *truth = NULL;
     assert_int_equal(mote_impact_truth_load_or_compute(scenario, 5, ".", &truth), MOTE_OK);
     char *right = file_text(path);
@@ -235,6 +236,7 @@ TEST(impact_truth_that_cannot_be_right_is_computed_anew)
         free(again);
     }
     free(right);
+    free(path);
     mote_scenario_destroy(scenario);
 }
 

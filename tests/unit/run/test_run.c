@@ -105,6 +105,29 @@ TEST(run_writes_rows_with_the_columns_of_the_contract)
     free(text);
 }
 
+/* A cell stores the active interval, so one of another interval is another cell, and rows say
+   which they are of. */
+TEST(run_of_another_active_interval_is_another_cell)
+{
+    static const char line[] =
+        "run s.json --frames 3-12 --replicates 1 --method fcl-aabb --out .";
+    static const char *const intervals[] = {"140, 600", "4, 8", "5, 8"};
+    for (size_t i = 0; i < ROWS_OF(intervals); ++i) {
+        char text[128];
+        (void)snprintf(text, sizeof text,
+                       "{\"purpose\": \"tt\", \"like\": \"tt\", \"active\": [%s]}\n",
+                       intervals[i]);
+        file_put("s.json", text);
+        mote_expect(0, "plan: 1 cells, 0 of them done", "%s", line);
+        mote_expect(0, "plan: 1 cells, 1 of them done", "%s", line);
+    }
+    mote_expect(0, "s (active 4-8)", "summarize .");
+    assert_non_null(strstr(said, "s (active 5-8)"));
+    json_t *summary = read_json("summary.json");
+    assert_int_equal(json_array_size(json_object_get(summary, "rows")), 3);
+    json_decref(summary);
+}
+
 TEST(run_summary_has_a_row_a_configuration)
 {
     assert_int_equal(run("mv --frames 3-12 --replicates 2 --stride 1 " TWO_METHODS), 0);

@@ -26,7 +26,7 @@ static char *truth_path(const mote_scenario *scenario)
 {
     uint64_t fingerprint;
     assert_int_equal(mote_scenario_fingerprint(scenario, &fingerprint), MOTE_OK);
-    char *path = mote_format("truth/%s-%016" PRIx64 ".csv", scenario->name, fingerprint);
+    char *path = mote_truth_path(".", scenario, fingerprint);
     assert_non_null(path);
     return path;
 }
@@ -204,6 +204,15 @@ static void write_rows(const char *path, const char *first, const char *columns,
     ",1,,,,,,,\n25,1,,,,,,,\n26,1,,,,,,,\n27,1,,,,,,,\n28,1,,,,,,,\n29,1,,,,,,,\n30,1,,,,,,,"  \
     "\n"
 
+/* The first line of the small scenario's file. */
+static void put_head(char *first, size_t size, uint64_t fingerprint, uint64_t faces)
+{
+    (void)snprintf(first, size,
+                   "# truth of small, fingerprint %016" PRIx64 ", faces %016" PRIx64
+                   ", 30 frames, 24 checked\n",
+                   fingerprint, faces);
+}
+
 /* The hash does not stop forgers: the rows must be a valid truth, too. */
 TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
 {
@@ -234,9 +243,7 @@ TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
     char *path = truth_path(scenario), first[128];
     uint64_t fingerprint;
     assert_int_equal(mote_scenario_fingerprint(scenario, &fingerprint), MOTE_OK);
-    (void)snprintf(first, sizeof first,
-                   "# truth of small, fingerprint %016" PRIx64 ", 30 frames, 24 checked\n",
-                   fingerprint);
+    put_head(first, sizeof first, fingerprint, mote_scenario_faces(scenario));
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         mote_truth *read = NULL;
         write_rows(path, cases[i].first ? cases[i].first : first,
@@ -251,6 +258,30 @@ TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
             assert_non_null(strstr(mote_error_text(), "not the whole truth of small; remove"));
         mote_truth_destroy(read);
     }
+    assert_int_equal(unlink(path), 0);
+    free(path);
+}
+
+/* The truth of the same vertices with other faces is another one; a file of an older version
+   does not name its faces. */
+TEST(mote_truth_read_of_other_faces_is_refused_and_of_unknown_ones_is_not)
+{
+    static const char rows[] = "1,0.5,1,2,3,4,5,6,\n2,0,,,,,,,\n" REST;
+    const uint64_t faces = mote_scenario_faces(small);
+    uint64_t fingerprint;
+    mote_truth *read = NULL;
+    char *path = truth_path(small), first[128];
+    assert_int_equal(mote_scenario_fingerprint(small, &fingerprint), MOTE_OK);
+    put_head(first, sizeof first, fingerprint, faces ^ 1);
+    write_rows(path, first, COLUMNS, rows);
+    assert_int_equal(mote_truth_read(small, fingerprint, path, &read), MOTE_EINVAL);
+    (void)snprintf(first, sizeof first,
+                   "# truth of small, fingerprint %016" PRIx64 ", 30 frames, 24 checked\n",
+                   fingerprint);
+    write_rows(path, first, COLUMNS, rows);
+    assert_int_equal(mote_truth_read(small, fingerprint, path, &read), MOTE_OK);
+    assert_true(read->checked == 24 && read->distance[0] == 0.5);
+    mote_truth_destroy(read);
     assert_int_equal(unlink(path), 0);
     free(path);
 }

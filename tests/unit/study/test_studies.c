@@ -195,6 +195,29 @@ TEST(claims_measure_writes_all_and_tells_whether_requirements_are_met)
     }
 }
 
+/* As `mote run` does: 5 where a cell failed, 1 where a requirement is not met, 4 where a file
+   cannot be written. */
+TEST(claims_end_with_the_status_of_what_failed)
+{
+    static const struct {
+        bool cell, file, wrong;
+        int code;
+    } rows[] = {{false, false, false, MOTE_EXIT_DONE},
+                {false, false, true, MOTE_EXIT_CHECK_FAILED},
+                {false, true, false, MOTE_EXIT_BAD_INPUT},
+                {true, false, false, MOTE_EXIT_CELL_FAILED}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char words[][16] = {"claims", "--out", "out", "--quick"};
+        char *argv[] = {words[0], words[1], words[2], words[3], NULL};
+        test_row("%zu", i);
+        plant_good();
+        planted.body_failed = rows[i].cell;
+        planted.failing = rows[i].file;
+        planted.error = rows[i].wrong ? 0.3 : 0;
+        assert_int_equal(mote_command_claims(4, argv), rows[i].code);
+    }
+}
+
 static bool text_has(const char *name, const char *part)
 {
     char path[256], *text = NULL;

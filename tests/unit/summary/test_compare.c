@@ -215,16 +215,54 @@ TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
     }
 }
 
-/* Adds the rows of another run with other frames to a run, before its own. */
-static void add_row(const char *directory, const char *members)
+/* A row of FCL that others' ratios are to. */
+#define FCL(parameters, label)                                                                 \
+    "{'method': 'fcl-aabb', 'parameters': {" parameters "}, 'label': '" label "', "            \
+    "'ratio': {'to': '" label "'}, 'missed': 0}"
+
+/* Ratios to another configuration of fcl-aabb say nothing about the row: its times are compared
+   as they are, on one machine. */
+TEST(compare_of_ratios_to_other_configurations_compares_times)
 {
-    json_t *summary = NULL;
-    assert_int_equal(mote_record_read_json(directory, "summary.json", &summary), MOTE_OK);
-    json_t *rows = json_object_get(summary, "rows");
-    assert_int_equal(json_array_insert_new(rows, 0, json_deep_copy(json_array_get(rows, 0))),
-                     0);
-    put(directory, "summary.json", summary);
-    change_row(directory, "summary.json", members);
+    static const char same[] = "'queue': '2'", other[] = "'queue': '64'";
+    static const struct {
+        const char *parameters, *label;
+        bool differs;
+    } rows[] = {{same, "fcl-aabb", false}, {other, "fcl-aabb:queue=64", true}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        figures slow = usual;
+        char members[512];
+        slow.ratio /= 2; /* twice the time */
+        test_row("%s", rows[i].label);
+        write_run("old", &usual, 1);
+        write_run("new", &slow, -1);
+        add_row("old", FCL("'queue': '2'", "fcl-aabb"));
+        (void)snprintf(members, sizeof members, FCL("%s", "%s"), rows[i].parameters,
+                       rows[i].label, rows[i].label);
+        add_row("new", members);
+        (void)snprintf(
+            members, sizeof members,
+            "{'ratio': {'to': '%s'}, 'processes': [" PROCESS(1, 200, 20000) ", " PROCESS(
+                2, 201, 20100) ", " PROCESS(3, 200,
+                                            20050) ", " PROCESS(4, 201,
+                                                                20000) ", " PROCESS(5, 200,
+                                                                                    20100) "]}",
+            rows[i].label);
+        change_row_at("new", "summary.json", 1,
+                      members); /* a faster FCL makes it look twice as fast */
+        if (rows[i].differs)
+            expect("", 1, "ratios are to fcl-aabb and to fcl-aabb:queue=64: times as they are");
+        else
+            expect("", 0, "faster");
+        write_beside("old", "one", 1000);
+        write_beside("new", "two", 1000);
+        if (rows[i].differs)
+            expect("", 3,
+                   "ratios are to fcl-aabb and to fcl-aabb:queue=64: no time to compare");
+        else
+            expect("", 0, "better");
+        remove_beside();
+    }
 }
 
 TEST(compare_of_rows_without_a_partner_is_undecided)

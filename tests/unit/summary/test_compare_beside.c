@@ -106,7 +106,7 @@ TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
 
 /* A count that only one run has, or over other frames, is not compared, and this is
    reported. */
-TEST(compare_of_instructions_of_other_frames_is_undecided)
+TEST(compare_of_instructions_of_other_frames_or_scenes_is_undecided)
 {
     static const struct {
         const char *old_members, *new_members;
@@ -117,6 +117,9 @@ TEST(compare_of_instructions_of_other_frames_is_undecided)
                  {"{'frames': [1, 9]}", "{}", 3, "not counted over the same"},
                  {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
                  {"{}", "{'per_frame': null}", 3, "not counted over the same"},
+                 {"{}", "{'fingerprint': 'other'}", 3, "not counted over the same"},
+                 {"{'faces': 'a'}", "{'faces': 'b'}", 1, "instructions 1000 to 1100"},
+                 {"{'fingerprint': '0123456789abcdef'}", "{}", 1, "instructions 1000 to 1100"},
                  {"{'per_frame': null}", "{}", 0, "same or better"}};
     for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         write_run("old", &usual, 1);
@@ -190,4 +193,111 @@ TEST(compare_reads_the_cells_and_not_a_stale_summary)
     assert_int_equal(mote_compare("stale/kept.json", "stale", 0.02, &c), MOTE_OK);
     assert_true(c.worse);
     mote_comparison_free(&c);
+}
+
+/* Four frames of a replicate whose errors and misses are those of its number; replicates count
+   differently, as their random numbers do. */
+static void put_replicate(const char *directory, int replicate, const char *more)
+{
+    char rows[256];
+    (void)snprintf(rows, sizeof rows,
+                   "1,0,0,5,0.5,0,0,0,%d\n2,0,0,6,0.5,%g,0,0,7\n3,0,0,6,0,0,%d,1,7\n"
+                   "4,0,0,6,0,0,1,1,7\n",
+                   10 + replicate, 0.01 * replicate, replicate < 3);
+    stored_cell_put(directory, (stored_cell){.method = "particle",
+                                             .rows = rows,
+                                             .replicate = replicate,
+                                             .more = more});
+}
+
+static void put_summary(const char *directory)
+{
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_write(&summary, directory), MOTE_OK);
+    mote_summary_free(&summary);
+}
+
+/* A run with more replicates has larger errors, and is no worse for that. */
+TEST(compare_of_answers_is_over_the_replicates_that_both_have)
+{
+    assert_int_equal(folder_next(), 0);
+    for (int replicate = 1; replicate <= 3; ++replicate) {
+        if (replicate < 3)
+            put_replicate("few", replicate, "");
+        put_replicate("many", replicate, "");
+        if (replicate == 3)
+            put_replicate("third", replicate, "");
+    }
+    static const char *const runs[] = {"few", "many", "third"};
+    for (size_t k = 0; k < ROWS_OF(runs); ++k)
+        put_summary(runs[k]);
+    static const struct {
+        const char *base, *fresh;
+        const char *says; /* of the answers; NULL: they are the same */
+    } rows[] = {
+        {"few", "many", NULL},
+        {"many", "few", NULL},
+        {"few/kept.json", "many", NULL},
+        {"many", "few/kept.json", NULL},
+        {"few", "third", "other replicates: errors are not compared; no replicate in common"},
+        /* These have no replicates by themselves. */
+        {"many/kept.json", "few", "other replicates: errors are not compared"},
+        {"few/kept.json", "many/kept.json", "other replicates: errors are not compared"},
+    };
+    assert_int_equal(system("cp few/summary.json few/kept.json; cp many/summary.json "
+                            "many/kept.json"),
+                     0);
+    for (size_t k = 0; k < ROWS_OF(rows); ++k) {
+        mote_comparison c;
+        test_row("%s, %s", rows[k].base, rows[k].fresh);
+        assert_int_equal(mote_compare(rows[k].base, rows[k].fresh, 0.02, &c), MOTE_OK);
+        const char *what = c.changes[0].what.size ? c.changes[0].what.data : "";
+        assert_false(c.worse || c.changes[0].better);
+        assert_true(c.changes[0].unknown == (rows[k].says != NULL));
+        if (rows[k].says ? !strstr(what, rows[k].says)
+                         : strstr(what, "max") || strstr(what, "missed"))
+            fail_msg("%s", what);
+        mote_comparison_free(&c);
+    }
+    /* A change in a replicate that both have is one. */
+    put_replicate("many", 2, ", \"x\": 1");
+    file_put("many/cells/particle-2.csv", STORED_COLUMNS "1,0,0,5,0.5,0,0,0,12\n"
+                                                         "2,0,0,6,0.5,0.5,0,0,7\n"
+                                                         "3,0,0,6,0,0,1,1,7\n"
+                                                         "4,0,0,6,0,0,0,1,7\n");
+    mote_expect(1, "max 0.02 to 0.5", "compare few many");
+    assert_non_null(strstr(said, "missed 0 to 0.5"));
+}
+
+/* Of more than two bodies, contacts are those of a file. */
+TEST(compare_of_pairs_is_over_the_replicates_that_both_have)
+{
+#define PAIRS "frame,body_a,body_b,steps,distance,lower,contact,ax\n"
+    static const char bodies[] = ", \"bodies\": 3", both[] = PAIRS "1,1,2,1,0,0,1,1\n";
+    assert_int_equal(folder_next(), 0);
+    for (int replicate = 1; replicate <= 3; ++replicate) {
+        for (int k = 0; k < 2; ++k) {
+            char path[64];
+            const char *directory = k ? "many" : "few";
+            if (k == 0 && replicate == 3)
+                continue;
+            put_replicate(directory, replicate, bodies);
+            (void)snprintf(path, sizeof path, "%s/cells/particle-%d.pairs.csv", directory,
+                           replicate);
+            file_put(path, replicate < 3 ? both : PAIRS);
+            if (replicate > 1)
+                continue;
+            stored_cell_put(directory,
+                            (stored_cell){.rows = "1,0,0,5,,,1,,7\n", .more = bodies});
+            (void)snprintf(path, sizeof path, "%s/cells/fcl-aabb-1.pairs.csv", directory);
+            file_put(path, both);
+        }
+    }
+    assert_true(mote("compare few many") != 1);
+    assert_null(strstr(said, "missed"));
+    assert_true(mote("compare many few") != 1);
+    assert_null(strstr(said, "missed"));
+    file_put("many/cells/particle-2.pairs.csv", PAIRS);
+    mote_expect(1, "missed 0 to 0.5", "compare few many");
 }

@@ -97,6 +97,83 @@ TEST(history_of_a_row_with_and_without_ratios_is_two_series)
                                             "\"a \u201db\u201d\"\n2 1 0 b\n4 1.01 0 d\n");
 }
 
+#define ASKED_HEADER                                                                           \
+    "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
+    "error_p99,asked\n"
+
+/* Rows of other frames or other questions are never one series. Lines of older versions, which
+   do not say these, are taken for the next of their row. */
+TEST(history_of_a_row_that_was_asked_something_else_is_two_series)
+{
+    static const char lines[] = ASKED_HEADER "1,a,w,r,100,,,,,,,\n"
+                                             "1,a,w,s,7,,,,,,,\n"
+                                             "2,b,w,r,200,,,,,,,1-9 distance\n"
+                                             "3,c,w,r,50,,,,,,,1-9 contact\n"
+                                             "3,c,w,r,400,,,,,,,1-9 distance\n"
+                                             "4,d,w,r,25,,,,,,,1-8 contact\n";
+    file_put("h.csv", lines);
+    mote_expect(0, "h.svg", "history h.csv");
+    assert_string_equal(read_data("h.dat"),
+                        "\"r, frames 1-9 distance\"\n1 1 0 a\n2 2 1 b\n3 4 1 c\n\n\n"
+                        "\"s\"\n1 1 0 a\n\n\n"
+                        "\"r, frames 1-9 contact\"\n3 1 0 c\n\n\n"
+                        "\"r, frames 1-8 contact\"\n4 1 0 d\n");
+    /* A later version may have more columns. */
+    file_put("h.csv", "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,"
+                      "heap_live_bytes,error_p99,asked,mood\n1,a,w,r,100,,,,,,,1-9 "
+                      "distance,good\n");
+    mote_expect(0, "h.svg", "history h.csv");
+    assert_string_equal(read_data("h.dat"), "\"r\"\n1 1 0 a\n");
+    file_put("h.csv", "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,"
+                      "heap_live_bytes,error_p99,mood\n");
+    mote_expect(4, "h.csv:1: not the header of a history", "history h.csv");
+}
+
+/* What a row was asked is added last; files of older versions get the column. */
+TEST(history_add_says_what_was_asked)
+{
+    static const char impact[] = ", \"ask\": \"impact\", \"step\": 3, \"tolerance\": 0.01";
+    static const char *const files[] = {"none.csv", "old.csv", "new.csv", "later.csv"};
+    static const char *const headers[] = {NULL, HEADER, ASKED_HEADER,
+                                          "date,commit,why,row,total_ns,ratio,positions,"
+                                          "box_tests,triangle_tests,heap_live_bytes,error_p99,"
+                                          "asked,mood\n"};
+    static const char *const lines[] = {"", "1,a,w,r,100,,,,,,",
+                                        "1,a,w,r,100,,,,,,,1-9 distance",
+                                        "1,a,w,r,100,,,,,,,1-9 distance,good"};
+    static const char *const ends[] = {"", "", "", ","};
+    stored_cell_put("asked", (stored_cell){.rows = "1,0,0,5,0.5,0,0,0,7\n",
+                                           .more = ", \"ask\": \"distance\""});
+    stored_cell_put(
+        "asked",
+        (stored_cell){.rows = "1,0,0,5,,,0,0,7\n", .method = "certified", .more = impact});
+    file_put("asked/manifest.json", "{}\n");
+    for (size_t i = 0; i < ROWS_OF(files); ++i) {
+        char expected[3][128];
+        test_row("%s", files[i]);
+        if (headers[i]) {
+            char *text = mote_format("%s%s", headers[i], lines[i]);
+            file_put(files[i], text);
+            free(text);
+        }
+        mote_expect(0, "", "history %s --add asked --why w", files[i]);
+        char *text = file_text(files[i]);
+        (void)snprintf(expected[0], sizeof expected[0], ",1-4 distance%s\n", ends[i]);
+        (void)snprintf(expected[1], sizeof expected[1], ",1-4 impact step 3 tolerance 0.01%s\n",
+                       ends[i]);
+        (void)snprintf(expected[2], sizeof expected[2], "\n%s%s\n", lines[i],
+                       i == 1 ? "," : "");
+        for (size_t k = 0; k < (i == 0 ? 2 : 3); ++k) {
+            if (!strstr(text, expected[k]))
+                fail_msg("no \"%s\" in:\n%s", expected[k], text);
+        }
+        const char *header = headers[i] && i > 1 ? headers[i] : ASKED_HEADER;
+        assert_int_equal(strncmp(text, header, strlen(header)), 0);
+        free(text);
+        mote_expect(0, ".svg", "history %s", files[i]);
+    }
+}
+
 /* Accepted names must not end a field; a row that failed is left out. */
 TEST(history_add_of_odd_names_can_be_drawn)
 {
