@@ -185,6 +185,19 @@ TEST(mote_summarize_and_report_show_simulations)
     mote_expect(0, "2 cells and 8 simulations copied", "merge again whole");
 }
 
+/* One simulation, stored as failed in the merged directory. */
+TEST(merge_prefers_a_good_simulation_to_a_failed_one)
+{
+    mote_expect(0, "", "simulate two.json --method certified --out good");
+    mote_expect(0, "0 cells and 1 simulations copied, 0 were there", "merge joined good");
+    assert_int_equal(system("sed -i 's/\"status\": \"ok\"/\"status\": \"crashed\"/' "
+                            "joined/simulations/*"),
+                     0);
+    mote_expect(0, "0 cells and 1 simulations copied, 0 were there", "merge joined good");
+    assert_int_equal(system("grep -q '\"status\": \"ok\"' joined/simulations/*"), 0);
+    mote_expect(0, "0 cells copied, 1 were there", "merge joined good");
+}
+
 TEST(mote_simulate_refuses_shards_and_until_ci_without_a_directory)
 {
     mote_expect(2, "name a directory", BOTH " --shard 1/2");
