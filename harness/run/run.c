@@ -7,10 +7,10 @@
 #include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/run/progress.h"
+#include "harness/run/sweep.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -244,29 +244,6 @@ static void print_plan(const run *r)
     }
 }
 
-static void sweep_folder(const char *directory, const char *name)
-{
-    char *path = mote_format("%s/%s", directory, name);
-    DIR *folder = opendir(path);
-    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
-         entry = readdir(folder)) {
-        size_t length = strlen(entry->d_name);
-        if (length > 5 && strcmp(entry->d_name + length - 5, ".part") == 0)
-            (void)unlinkat(dirfd(folder), entry->d_name, 0);
-    }
-    if (folder)
-        (void)closedir(folder);
-    free(path);
-}
-
-/* Removes temporary files of interrupted writes. */
-static void sweep_parts(const char *directory)
-{
-    sweep_folder(directory, ".");
-    sweep_folder(directory, "cells");
-    sweep_folder(directory, "truth");
-}
-
 /* Opens and locks the directory. After a run was killed, its child holds the lock until the
    kernel has ended it. */
 static mote_status take_lock(run *r, const char *path)
@@ -304,7 +281,7 @@ static mote_status open_directory(run *r)
     if (status == MOTE_OK)
         status = take_lock(r, lock);
     if (status == MOTE_OK)
-        sweep_parts(directory);
+        mote_run_sweep(directory);
     free(cells);
     free(lock);
     return status;
@@ -554,7 +531,7 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
     if (status == MOTE_OK)
         tell_total(r, before);
     if (status != MOTE_OK && r->locked)
-        sweep_parts(options->directory); /* of processes that were ended */
+        mote_run_sweep(options->directory); /* of processes that were ended */
     return status;
 }
 

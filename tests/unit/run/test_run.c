@@ -352,17 +352,39 @@ TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
     assert_non_null(strstr(said, "0 of them done"));
 }
 
-TEST(run_sweeps_what_an_interrupted_write_left)
+/* Whatever else ends in .part is the user's. */
+TEST(run_sweeps_what_an_interrupted_write_left_and_nothing_else)
 {
-    static const char *const names[] = {"summary.json.part", "cells/a.json.part",
-                                        "truth/b.csv.part"};
-    file_put("cells/notes", "kept\n");
-    for (int i = 0; i < 3; ++i)
-        file_put(names[i], "part\n");
+    static const char *const left[] = {"manifest.json.12.part",     "summary.json.12.part",
+                                       "summary.csv.12.part",       "fronts.csv.7.part",
+                                       "speed.csv.4194304.part",    "cells/a.json.12.part",
+                                       "cells/a.pairs.csv.12.part", "truth/b.csv.12.part"};
+    static const char *const kept[] = {"notes.part",
+                                       "film.mp4.12.part",
+                                       "a.json.12.part",
+                                       "summary.json.part",
+                                       "summary.json.x1.part",
+                                       "summary.json.12.part.gz",
+                                       ".12.part",
+                                       "12.part",
+                                       "cells/notes",
+                                       "cells/notes.part",
+                                       "cells/.json.12.part",
+                                       "truth/notes.12.part"};
+    for (size_t i = 0; i < ROWS_OF(left); ++i)
+        file_put(left[i], "part\n");
+    for (size_t i = 0; i < ROWS_OF(kept); ++i)
+        file_put(kept[i], "kept\n");
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
-    for (int i = 0; i < 3; ++i)
-        assert_false(file_exists(names[i]));
-    assert_true(file_exists("cells/notes"));
+    for (size_t i = 0; i < ROWS_OF(left); ++i) {
+        if (file_exists(left[i]))
+            fail_msg("%s is left", left[i]);
+    }
+    for (size_t i = 0; i < ROWS_OF(kept); ++i) {
+        if (!file_exists(kept[i]))
+            fail_msg("%s is gone", kept[i]);
+    }
+    assert_int_equal(folder_remove("truth/notes.12.part"), 0);
 }
 
 TEST(run_whose_lock_cannot_be_opened_says_so)
