@@ -78,6 +78,20 @@ static void find_csv(char *path, size_t size)
     assert_true(path[0] != '\0');
 }
 
+/* The JSON file of the cell whose name has this part. */
+static void find_cell(const char *part, char *path, size_t size)
+{
+    DIR *folder = opendir("cells");
+    assert_non_null(folder);
+    path[0] = '\0';
+    for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
+        if (strstr(entry->d_name, part) && strstr(entry->d_name, ".json"))
+            (void)snprintf(path, size, "cells/%s", entry->d_name);
+    }
+    (void)closedir(folder);
+    assert_true(path[0] != '\0');
+}
+
 static int count_fields(const char *line)
 {
     int count = 1;
@@ -350,6 +364,27 @@ TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
     }
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb --force"), 0);
     assert_non_null(strstr(said, "0 of them done"));
+}
+
+/* The stride of the cells of a configuration is that of a stored one, also for a cell that
+   stands before it in the plan: the stored one is of the second replicate, and not the stride
+   that a probe of so fast a method suggests. */
+TEST(run_goes_on_with_the_stride_of_a_stored_cell_that_comes_later)
+{
+    static const char line[] = "tt --frames 1-32 --replicates 2 --method aabb-tree";
+    char first[320] = "", second[320] = "";
+    assert_int_equal(run(line), 0);
+    find_cell("-r1-", first, sizeof first);
+    find_cell("-r2-", second, sizeof second);
+    json_t *cell = read_json(second);
+    assert_int_equal(json_integer_value(json_object_get(cell, "stride")), 1);
+    assert_int_equal(json_object_set_new(cell, "stride", json_integer(16)), 0);
+    assert_int_equal(mote_record_json(".", second, cell), MOTE_OK);
+    assert_int_equal(folder_remove(first), 0);
+    mote_expect(0, "plan: 2 cells, 1 of them done", "run %s --no-summary --out .", line);
+    cell = read_json(first);
+    assert_int_equal(json_integer_value(json_object_get(cell, "stride")), 16);
+    json_decref(cell);
 }
 
 /* Whatever else ends in .part is the user's. */
