@@ -4,10 +4,8 @@
 set -euo pipefail
 build=$(realpath "$1")
 gate=$(realpath "$(dirname "$0")")/interface.py
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
-fail() { echo "interface.sh: $*" >&2; exit 1; }
 
 /usr/bin/python3 "$gate" "$build"
 

@@ -3,9 +3,8 @@
 # program that makes it? The programs here only say what they are asked to, and end with $ENDS.
 set -euo pipefail
 scripts=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-fail() { echo "study_failures.sh: $*" >&2; cat "$work/said" >&2; exit 1; }
+. "$(dirname "$0")/work.sh"
+shown=said
 cd "$work"
 mkdir -p build/tests harness/scripts
 # What mote and race_study do: measure, and make tables.
