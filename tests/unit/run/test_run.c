@@ -64,6 +64,42 @@ TEST(run_of_two_methods_leaves_a_cell_each_replicate)
     json_decref(manifest);
 }
 
+/* Whether a list of libraries, "fcl 0.7.0, ccd 2.0", has the version of one. */
+static bool has_version(const char *libraries, const char *library)
+{
+    char *name = mote_format(", %s ", library);
+    const char *at = strstr(libraries, name);
+    const bool known = at && strspn(at + strlen(name), "0123456789") > 0;
+    free(name);
+    return known;
+}
+
+/* Those without a file of pkg-config, too, and those of optional methods where they are. */
+TEST(run_manifest_names_the_versions_of_libraries)
+{
+    static const char *const always[] = {"ccd",     "assimp", "gsl",
+                                         "jansson", "hacd",   "meshoptimizer"};
+    static const struct {
+        const char *library, *method;
+    } optional[] = {{"embree", "embree-contact"},
+                    {"ode", "ode"},
+                    {"bullet", "bullet-gimpact"},
+                    {"coal", "coal-aabb"}};
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method aabb-tree --no-summary"), 0);
+    json_t *manifest = read_json("manifest.json");
+    const char *libraries = mote_text_at(manifest, "libraries");
+    for (size_t i = 0; i < ROWS_OF(always); ++i) {
+        if (!has_version(libraries, always[i]))
+            fail_msg("no version of %s: %s", always[i], libraries);
+    }
+    for (size_t i = 0; i < ROWS_OF(optional); ++i) {
+        const bool built = mote_method_find(optional[i].method) != NULL;
+        if (has_version(libraries, optional[i].library) != built)
+            fail_msg("%s: %s", optional[i].library, libraries);
+    }
+    json_decref(manifest);
+}
+
 /* The path of some CSV file of the run. */
 static void find_csv(char *path, size_t size)
 {
