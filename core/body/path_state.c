@@ -1,6 +1,7 @@
 #include "core/body/path.h"
 
 #include "core/base/turn.h"
+#include "core/body/field_axes.h"
 #include "core/body/path_place.h"
 
 #include <string.h>
@@ -122,8 +123,8 @@ static void no_weights(const mote_field *field, const mote_mat3 *rotation, doubl
 {
     memset(weights, 0, 3 * (size_t)field->padded * sizeof *weights);
     for (size_t r = 0; field->numbers > 0 && r < 3; ++r)
-        memcpy(weights + r * field->padded + (field->count - field->numbers - 3),
-               rotation->m[r], sizeof rotation->m[r]);
+        memcpy(weights + r * field->padded + mote_field_first_axis(field), rotation->m[r],
+               sizeof rotation->m[r]);
 }
 
 void mote_path_state(const mote_path *path, const mote_body *body, double time, double *weights,
@@ -142,9 +143,8 @@ void mote_path_state(const mote_path *path, const mote_body *body, double time, 
         return;
     if (piece->weights)
         weights_at(piece->weights, at.u, &state->pose.rotation,
-                   body->field->numbers > 0 ? body->field->count - body->field->numbers
-                                            : padded,
-                   padded, weights);
+                   body->field->numbers > 0 ? mote_field_vectors(body->field) : padded, padded,
+                   weights);
     else
         no_weights(body->field, &state->pose.rotation, weights);
     state->weights.x = weights;

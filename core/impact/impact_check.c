@@ -1,6 +1,8 @@
 /* What is wrong with a question about an impact. */
 #include "core/impact/impact_state.h"
 
+#include "core/body/field_axes.h"
+
 /* Quaternions of a piece that come nearer to 0 than this part of the longest are refused. */
 #define LEAST_TURN 1e-3
 
@@ -66,14 +68,14 @@ static mote_status check_turn(const mote_path_piece *piece, int body, uint32_t k
    are in x alone. */
 static bool has_axes(const mote_field *field, const double *weights)
 {
-    const size_t padded = field->padded, first = field->count - field->numbers;
+    const size_t padded = field->padded;
     for (size_t i = 0; i < 12 && field->numbers > 0; ++i) {
         const double *row = weights + i * padded;
         for (size_t k = 0; k < 3; ++k) {
-            if (fabs(row[first - 3 + k] - (k == i % 3 ? 1 : 0)) > 0x1p-50)
+            if (fabs(row[mote_field_first_axis(field) + k] - (k == i % 3 ? 1 : 0)) > 0x1p-50)
                 return false;
         }
-        for (size_t j = first; i % 3 > 0 && j < field->count; ++j) {
+        for (size_t j = mote_field_vectors(field); i % 3 > 0 && j < field->count; ++j) {
             if (fabs(row[j]) > 0)
                 return false;
         }

@@ -191,6 +191,24 @@ static const char *write_advice(int error)
     return "name a file in a folder that exists and can be written to";
 }
 
+#define PART_ENDING ".part"
+
+char *mote_part_name(const char *path)
+{
+    return mote_format("%s.%ld" PART_ENDING, path, (long)getpid());
+}
+
+size_t mote_part_length(const char *name)
+{
+    if (!mote_name_ends(name, PART_ENDING))
+        return 0;
+    const size_t end = strlen(name) - strlen(PART_ENDING);
+    size_t dot = end;
+    while (dot > 0 && name[dot - 1] >= '0' && name[dot - 1] <= '9')
+        --dot;
+    return dot < end && dot > 1 && name[dot - 1] == '.' ? dot - 1 : 0;
+}
+
 mote_status mote_file_write(const char *path, const void *data, size_t size)
 {
     struct stat info;
@@ -201,7 +219,7 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
     char *target = exists || errno == ENOENT ? mote_path_follow(path) : NULL;
     if (!target)
         return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
-    char *beside = mote_format("%s.%ld.part", target, (long)getpid());
+    char *beside = mote_part_name(target);
     mote_status status = MOTE_OK;
     if (!replace_file(target, beside, data, size))
         status = mote_fail(MOTE_EIO, "%s: cannot be written: %s; %s", path, strerror(errno),

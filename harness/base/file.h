@@ -23,6 +23,14 @@ const char *mote_skip_mark(const char *text);
    and never replaced. MOTE_EIO with a text. */
 mote_status mote_file_write(const char *path, const void *data, size_t size);
 
+/* The temporary name, "PATH.PID.part", under which this process writes the file at path. The
+   caller frees it. */
+char *mote_part_name(const char *path);
+
+/* The length of NAME if a file's name is NAME.PID.part, as left by an interrupted write; 0 if
+   it is not. */
+size_t mote_part_length(const char *name);
+
 /* Whether path names a stream: a device, a FIFO, a socket, or the file that this program's
    standard output or error goes to. A stream cannot be replaced by a rename. */
 bool mote_path_is_stream(const char *path);

@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIZE_LIMIT ((size_t)16 << 20)
-
 mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
                             json_t **root)
 {
@@ -27,7 +25,7 @@ mote_status mote_json_open(const char *path, mote_json_file *file)
 {
     mote_json_file opened = {0};
     size_t size = 0;
-    mote_status status = mote_file_read(path, SIZE_LIMIT, &opened.text, &size);
+    mote_status status = mote_file_read(path, MOTE_JSON_LIMIT, &opened.text, &size);
     if (status != MOTE_OK)
         return status;
     const size_t mark = (size_t)(mote_skip_mark(opened.text) - opened.text);

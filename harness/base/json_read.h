@@ -23,13 +23,16 @@ typedef struct mote_json {
     char path[160];             /* "bodies[1].field.support"; "" at the root */
 } mote_json;
 
+/* The largest file that mote_json_open reads, in bytes. */
+#define MOTE_JSON_LIMIT ((size_t)16 << 20)
+
 /* Parses a whole JSON text; a duplicate key is an error. path is for the message: MOTE_EINVAL
    with "PATH:LINE:COLUMN: what; ADVICE". The caller decrefs *root. */
 mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
                             json_t **root);
 
-/* Reads and parses a file of at most 16 MiB; a duplicate key is an error. MOTE_EINVAL with
-   "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
+/* Reads and parses a file of at most MOTE_JSON_LIMIT; a duplicate key is an error. MOTE_EINVAL
+   with "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
 mote_status mote_json_open(const char *path, mote_json_file *file);
 void mote_json_close(mote_json_file *file);
 mote_json mote_json_root(const mote_json_file *file);

@@ -7,10 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The largest file that is copied, in bytes: the pairs of a cell of a million bodies. */
-#define COPY_LIMIT ((size_t)1 << 30)
-
-/* No file of a run is larger than this. */
+/* The largest JSON file of a run, in bytes. */
 #define FILE_LIMIT ((size_t)1 << 30)
 
 static mote_status write_at(const char *directory, const char *name, const void *data,
@@ -65,6 +62,20 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
     return status;
 }
 
+static bool is_ok(const char *directory, const char *name)
+{
+    json_t *object = NULL;
+    const bool ok = mote_record_read_json(directory, name, &object) == MOTE_OK &&
+                    strcmp(mote_text_at(object, "status"), "ok") == 0;
+    json_decref(object);
+    return ok;
+}
+
+bool mote_record_is_wanted(const char *from, const char *to, const char *name)
+{
+    return !mote_record_exists(to, name) || (!is_ok(to, name) && is_ok(from, name));
+}
+
 json_t *mote_json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
@@ -102,7 +113,7 @@ mote_status mote_record_copy(const char *from, const char *to, const char *name)
     char *source = mote_format("%s/%s", from, name), *target = mote_format("%s/%s", to, name);
     char *data = NULL;
     size_t size = 0;
-    mote_status status = mote_file_read(source, COPY_LIMIT, &data, &size);
+    mote_status status = mote_file_read(source, MOTE_PAIRS_LIMIT, &data, &size);
     if (status == MOTE_OK)
         status = mote_file_write(target, data, size);
     free(data);

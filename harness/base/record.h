@@ -8,8 +8,16 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* The largest cells/ID.pairs.csv that is read or copied, in bytes. No other file of a run is as
+   large. */
+#define MOTE_PAIRS_LIMIT ((size_t)1 << 32)
+
 /* Whether directory/name is there. */
 bool mote_record_exists(const char *directory, const char *name);
+
+/* Whether from/name, the JSON of a cell or simulation, belongs into the directory `to`: it is
+   missing there, or what is there failed and this one did not. */
+bool mote_record_is_wanted(const char *from, const char *to, const char *name);
 
 /* Writes directory/name. Frees text. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
@@ -18,7 +26,7 @@ mote_status mote_record_text(const char *directory, const char *name, mote_text 
    NULL, which jansson returns for text that is not UTF-8. */
 mote_status mote_record_json(const char *directory, const char *name, json_t *object);
 
-/* Copies from/name to to/name. */
+/* Copies from/name, of at most MOTE_PAIRS_LIMIT bytes, to to/name. */
 mote_status mote_record_copy(const char *from, const char *to, const char *name);
 
 /* Reads directory/name as JSON; MOTE_EINVAL with file, line and column if it is not JSON. The

@@ -1,27 +1,21 @@
 #include "harness/loop/cast.h"
 
+#include "core/body/field_axes.h"
 #include "harness/base/memory.h"
 #include "harness/loop/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* How many weights turn with the body; numbers, which come last, do not. */
-static uint32_t turning(const mote_field *field)
-{
-    return field->count - field->numbers;
-}
-
-/* Weight j in the axes of its body, which has this rotation. The three weights before numbers
-   are the axes themselves. */
+/* Weight j in the axes of its body, which has this rotation. */
 static mote_vec3 own_weight(const mote_field *field, const mote_weights *weights,
                             const mote_mat3 *rotation, uint32_t j)
 {
     const mote_vec3 w = {weights->x[j], weights->y[j], weights->z[j]};
-    if (j >= turning(field))
+    if (j >= mote_field_vectors(field))
         return w;
-    if (field->numbers > 0 && j + 3 >= turning(field)) {
-        const uint32_t axis = j + 3 - turning(field);
+    if (field->numbers > 0 && j >= mote_field_first_axis(field)) {
+        const uint32_t axis = j - mote_field_first_axis(field);
         return mote_vec3_make(axis == 0, axis == 1, axis == 2);
     }
     return mote_rotate_back(rotation, w);
@@ -120,7 +114,8 @@ static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
     s->still[i] = still;
     for (uint32_t j = 0; j < body->weights.count; ++j) {
         const mote_vec3 w = own_weight(field, &body->weights, shown, j);
-        const mote_vec3 turned = j < turning(field) ? mote_rotate(&body->pose.rotation, w) : w;
+        const mote_vec3 turned =
+            j < mote_field_vectors(field) ? mote_rotate(&body->pose.rotation, w) : w;
         memcpy(&still[(size_t)3 * j], &w, sizeof w);
         world[j] = turned.x;
         world[padded + j] = turned.y;

@@ -1,5 +1,6 @@
 #include "harness/loop/flight.h"
 
+#include "core/body/field_axes.h"
 #include "core/body/path_place.h"
 #include "harness/base/memory.h"
 #include "harness/loop/reach.h"
@@ -308,9 +309,8 @@ double mote_flight_moved(const mote_flight *flight)
    points are rounded. */
 static void keep_axes(flown *b)
 {
-    const size_t first = b->field->count - b->field->numbers - 3;
     for (size_t i = 0; i < 9 && b->field->numbers > 0; ++i) {
-        const size_t at = i / 3 * b->padded + first + i % 3;
+        const size_t at = i / 3 * b->padded + mote_field_first_axis(b->field) + i % 3;
         b->now[at] = i / 3 == i % 3;
         b->rate[at] = 0;
     }

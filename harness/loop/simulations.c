@@ -271,7 +271,7 @@ typedef struct copying {
 static mote_status copy_file(void *context, const char *name)
 {
     const copying *c = context;
-    if (mote_record_exists(c->to, name)) {
+    if (!mote_record_is_wanted(c->from, c->to, name)) {
         ++*c->present;
         return MOTE_OK;
     }

@@ -50,8 +50,8 @@ bool mote_simulations_exist(const char *directory);
 /* Makes the folder for them. Errors of mote_directory_make. */
 mote_status mote_simulations_make(const char *directory);
 
-/* Copies the simulations of one directory that the other lacks, and writes the other's
-   simulations.json; *copied and *present count them. */
+/* Copies the simulations of one directory that the other lacks, or has as failed ones, and
+   writes the other's simulations.json; *copied and *present count them. */
 mote_status mote_simulations_copy(const char *from, const char *to, size_t *copied,
                                   size_t *present);
 

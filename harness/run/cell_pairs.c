@@ -18,7 +18,7 @@ mote_status mote_cell_pairs_open(const mote_cell *cell, const char *directory,
 {
     mote_cell_pairs made = {.contacts_only = cell->contacts_only};
     made.name = mote_format("%s/cells/%s.pairs.csv", directory, cell->id);
-    made.part = mote_format("%s.part", made.name);
+    made.part = mote_part_name(made.name);
     made.file = fopen(made.part, "w");
     if (!made.file) {
         const mote_status status = write_error(made.part);

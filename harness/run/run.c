@@ -7,10 +7,10 @@
 #include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/run/progress.h"
+#include "harness/run/sweep.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -46,6 +46,7 @@ typedef struct run {
     size_t begun;        /* the first cell that was measured */
     size_t done;         /* cells of the plan */
     size_t failed;       /* of the done cells */
+    size_t measured;     /* of the done cells, by this run */
     uint32_t replicates; /* planned and further ones */
     int lock;            /* descriptor, or -1 */
     bool locked;
@@ -110,8 +111,7 @@ static void look_up(run *r, size_t index)
     json_decref(object);
 }
 
-/* All cells of one configuration on one scenario use the same stride: the stored one, otherwise
-   the one that the probe suggests. */
+/* Whether two cells must use the same stride: those of one configuration on one scenario. */
 static bool same_configuration(const mote_cell *a, const mote_cell *b)
 {
     return a->subject == b->subject && a->choice == b->choice && a->step == b->step;
@@ -137,6 +137,17 @@ static double expected_seconds(const mote_cell *cell, const mote_forecast *forec
     return forecast->build_seconds + frames * frame;
 }
 
+/* The stride for the cells of a configuration that are still to be measured: that of a cell
+   that is done, wherever it stands in the plan, or the one that the probe suggests. */
+static uint32_t common_stride(const run *r, const mote_cell *probed, double frame_seconds)
+{
+    for (size_t i = 0; i < r->plan.count; ++i) {
+        if (r->prospects[i].done && same_configuration(&r->plan.cells[i], probed))
+            return r->plan.cells[i].stride;
+    }
+    return choose_stride(probed, frame_seconds);
+}
+
 /* Runs a few frames of the cell's configuration, so that bad parameters are rejected before
    anything is written; sets the stride and the expected time for all cells of the
    configuration. */
@@ -148,14 +159,12 @@ static mote_status probe_configuration(run *r, size_t index)
     if (status != MOTE_OK)
         return mote_fail(status, "%s on %s: %s", probed->choice->text,
                          mote_subject_facts_of(probed->subject).name, mote_error_text());
-    uint32_t stride = choose_stride(&r->plan.cells[index], forecast.frame_seconds);
+    const uint32_t stride = common_stride(r, probed, forecast.frame_seconds);
     for (size_t i = 0; i < r->plan.count; ++i) {
         mote_cell *cell = &r->plan.cells[i];
-        if (!same_configuration(cell, &r->plan.cells[index]))
+        if (!same_configuration(cell, probed))
             continue;
-        if (r->prospects[i].done)
-            stride = cell->stride;
-        else
+        if (!r->prospects[i].done)
             cell->stride = stride;
         r->prospects[i].seconds = expected_seconds(cell, &forecast);
     }
@@ -244,29 +253,6 @@ static void print_plan(const run *r)
     }
 }
 
-static void sweep_folder(const char *directory, const char *name)
-{
-    char *path = mote_format("%s/%s", directory, name);
-    DIR *folder = opendir(path);
-    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
-         entry = readdir(folder)) {
-        size_t length = strlen(entry->d_name);
-        if (length > 5 && strcmp(entry->d_name + length - 5, ".part") == 0)
-            (void)unlinkat(dirfd(folder), entry->d_name, 0);
-    }
-    if (folder)
-        (void)closedir(folder);
-    free(path);
-}
-
-/* Removes temporary files of interrupted writes. */
-static void sweep_parts(const char *directory)
-{
-    sweep_folder(directory, ".");
-    sweep_folder(directory, "cells");
-    sweep_folder(directory, "truth");
-}
-
 /* Opens and locks the directory. After a run was killed, its child holds the lock until the
    kernel has ended it. */
 static mote_status take_lock(run *r, const char *path)
@@ -304,7 +290,7 @@ static mote_status open_directory(run *r)
     if (status == MOTE_OK)
         status = take_lock(r, lock);
     if (status == MOTE_OK)
-        sweep_parts(directory);
+        mote_run_sweep(directory);
     free(cells);
     free(lock);
     return status;
@@ -375,12 +361,12 @@ static void tell_current(void *context)
     free(which);
 }
 
-static void tell_total(run *r, size_t before)
+static void tell_total(run *r)
 {
     char took[32];
     duration_text(seconds_since(r->opened_ns), took, sizeof took);
-    char *text = mote_format("%zu cells measured in %s", r->done - before, took);
-    if (r->progress.terminal && r->done > before)
+    char *text = mote_format("%zu cells measured in %s", r->measured, took);
+    if (r->progress.terminal && r->measured > 0)
         mote_progress_keep(&r->progress, text);
     free(text);
 }
@@ -418,6 +404,7 @@ static mote_status finish_cell(void *context, size_t task, mote_child *child, do
         return status;
     r->prospects[r->begun + task].done = true;
     r->done += 1;
+    r->measured += 1;
     r->failed += end.status == MOTE_CELL_CRASHED || end.status == MOTE_CELL_TIMEOUT ? 1 : 0;
     tell_end(r, cell, &end, seconds);
     return MOTE_OK;
@@ -483,12 +470,14 @@ static mote_status add_replicates(run *r)
     const uint64_t start = mote_clock_ns();
     mote_status status = MOTE_OK;
     while (status == MOTE_OK && r->replicates < MOTE_REPLICATES_MAX) {
-        const size_t before = r->plan.count;
+        const size_t before = r->plan.count, done = r->done, failed = r->failed;
         size_t planned;
         status = plan_replicate(r, base, r->replicates + 1, &planned);
         const double spent = (double)(mote_clock_ns() - start) * 1e-9;
         if (status != MOTE_OK || planned == 0 || spent + seconds_left(r) > r->options->budget) {
             r->plan.count = before;
+            r->done = done; /* without what is stored of this replicate */
+            r->failed = failed;
             break;
         }
         status = measure(r, before);
@@ -542,7 +531,6 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
     if (status == MOTE_OK)
         status = load_truth(r);
     mote_progress_end(&r->progress);
-    const size_t before = r->done;
     r->opened_ns = mote_clock_ns();
     if (status == MOTE_OK) {
         warn_of_load(r);
@@ -552,9 +540,9 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
         status = add_replicates(r);
     mote_progress_end(&r->progress);
     if (status == MOTE_OK)
-        tell_total(r, before);
+        tell_total(r);
     if (status != MOTE_OK && r->locked)
-        sweep_parts(options->directory); /* of processes that were ended */
+        mote_run_sweep(options->directory); /* of processes that were ended */
     return status;
 }
 

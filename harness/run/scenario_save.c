@@ -10,14 +10,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Loads the scenario that file->root describes. */
-static mote_status read_back(const mote_json_file *file, int digits, mote_scenario **scenario)
+/* A file that nothing could read is not written. */
+static mote_status check_size(const char *path, size_t size)
+{
+    if (size <= MOTE_JSON_LIMIT)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "%s: not written: it would have %zu bytes, and of a scenario at most %zu "
+                     "are read; record fewer frames",
+                     path, size, MOTE_JSON_LIMIT);
+}
+
+/* Loads the scenario that file->root describes and that is to be written to `to`. */
+static mote_status read_back(const mote_json_file *file, int digits, const char *to,
+                             mote_scenario **scenario)
 {
     mote_text text = {0};
     mote_json_file again = {.path = file->path, .own = file->own};
     mote_json_print(file->root, digits, &text);
-    mote_status status =
-        mote_json_parse(file->path, text.data, text.size, "tell the authors", &again.root);
+    mote_status status = check_size(to, text.size);
+    if (status == MOTE_OK)
+        status =
+            mote_json_parse(file->path, text.data, text.size, "tell the authors", &again.root);
     again.text = text.data;
     if (status == MOTE_OK)
         status = mote_scenario_read(&again, scenario);
@@ -71,7 +85,7 @@ mote_status mote_scenario_save(mote_json_file *file, int digits, mote_scenario_v
     json_t *active = json_incref(json_object_get(file->root, "active"));
     (void)json_object_del(file->root, "active");
     mote_status status =
-        target ? read_back(file, digits, &scenario)
+        target ? read_back(file, digits, to, &scenario)
                : mote_fail(MOTE_EIO, "%s: cannot be written: %s", to, strerror(errno));
     if (status == MOTE_OK && verify)
         status = verify(context, scenario);

@@ -27,6 +27,7 @@ measure "$@" \
     --method 'certified:restarts=0' \
     --method 'certified:seed=none,restarts=0' \
     --method 'certified:slack=0.000001|0.001'
-"$mote" summarize "$out" --format table | tee "$out/ablation.txt"
+"$mote" summarize "$out" --format table >"$out/ablation.txt" # no pipe, which would hide a failure
+cat "$out/ablation.txt"
 "$mote" report "$out"
 exit $failed

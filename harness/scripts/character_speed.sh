@@ -35,7 +35,8 @@ for scenario in ${SCENARIOS:-$scenarios}; do
 done
 
 # A key of a row stands on a line of its own, those of its numbers one level deeper.
-"$mote" summarize "$out" --format json | awk '
+"$mote" summarize "$out" --format json >/dev/null # writes summary.json; no pipe, which would hide a failure
+awk '
     function value(line) { sub(/^[^:]*: */, "", line); gsub(/[",]/, "", line); return line }
     function kind(label) { return label ~ /^fcl/ ? "fcl" : label ~ /^aabb/ ? "tree" : "own" }
     function ratio(what, k, times) {
@@ -67,5 +68,6 @@ done
                 time[k, "own"] / 1000, slow[k, "own"] / 1000, ratio("tree", k), slow[k, "tree"] / 1000,
                 ratio("fcl", k), slow[k, "fcl"] / 1000, bytes[k], error[k]
         }
-    }' | tee "$out/characters.md"
+    }' "$out/summary.json" >"$out/characters.md"
+cat "$out/characters.md"
 exit "$failed"

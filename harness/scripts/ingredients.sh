@@ -52,7 +52,8 @@ for scenarios in "$evicted" "$large"; do
     # shellcheck disable=SC2086
     measure $scenarios --replicates $replicates --cache evict --method $tuned --method aabb-tree --method particle:n=8
 done
-"$mote" summarize "$out" --format table | tee "$out/ingredients.txt"
+"$mote" summarize "$out" --format table >"$out/ingredients.txt" # no pipe, which would hide a failure
+cat "$out/ingredients.txt"
 "$mote" figures "$out" >/dev/null
 "$mote" report "$out"
 exit $failed

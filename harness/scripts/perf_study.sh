@@ -14,7 +14,8 @@ if [ "${6:-}" = record ]; then
     cp "$out/races.csv" results/reference/races.csv
     out=results/reference
 fi
-"$build/tests/race_study" table "$out/races.csv" "$out/power" | tee "$out/power.md"
+"$build/tests/race_study" table "$out/races.csv" "$out/power" >"$out/power.md" # no pipe, which would hide a failure
+cat "$out/power.md"
 grep -q '^[0-9]' "$out/power.dat" || exit 0 # nothing planted yet
 gnuplot -c plots/draw.gp plots power "$out/power" "How small a slowdown a race finds" "" svg
 [ "$out" != results/reference ] || rm "$out/power.dat"

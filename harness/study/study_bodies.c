@@ -275,7 +275,7 @@ static void add_faults(const mote_summary *summary, faults *found)
 {
     for (size_t k = 0; k < summary->count; ++k) {
         const mote_summary_row *row = &summary->rows[k];
-        found->failed += row->finished == 0;
+        found->failed += row->failed;
         if (row->finished > 0 && is_exact(row) && !row->contacts_of)
             ++found->unlike;
         else if (row->finished > 0 && is_exact(row))

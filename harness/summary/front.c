@@ -86,6 +86,7 @@ typedef struct workshop {
     size_t *rivals[MOTE_RIVALS];
     double *times, *errors; /* [rows] */
     double *drawn;          /* [processes] */
+    size_t *shared;         /* [processes] */
 } workshop;
 
 /* The rows of one side at one error level, and where they reach it. */
@@ -101,6 +102,7 @@ typedef struct comparison {
     const workshop *shop;
     bool given; /* times exclude deformation */
     side mine, theirs;
+    size_t shared; /* processes that all their rows have: the first ones of shop->shared */
 } comparison;
 
 static void find_side(const workshop *w, bool given, double level, side *s)
@@ -116,17 +118,40 @@ static void find_side(const workshop *w, bool given, double level, side *s)
         s->time = time_between(w->times[s->way.at], w->times[s->way.towards], s->way.share);
 }
 
-/* The median of a row's times over those of the drawn processes that it has. */
+static const double *row_times(const comparison *c, size_t row)
+{
+    const workshop *w = c->shop;
+    return (c->given ? w->given : w->total) + row * w->processes;
+}
+
+/* Finds the processes that every row of both sides has: a row may have fewer replicates than
+   others of the run, and only what it has itself says how much its times vary. */
+static void find_shared(comparison *c)
+{
+    const workshop *w = c->shop;
+    const size_t rows[] = {c->mine.rows[c->mine.way.at], c->mine.rows[c->mine.way.towards],
+                           c->theirs.rows[c->theirs.way.at],
+                           c->theirs.rows[c->theirs.way.towards]};
+    c->shared = 0;
+    for (size_t k = 0; k < w->processes; ++k) {
+        bool in_all = true;
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+            const double time = row_times(c, rows[i])[k];
+            in_all = in_all && time == time;
+        }
+        if (in_all)
+            w->shared[c->shared++] = k;
+    }
+}
+
+/* The median of a row's times over the drawn processes. */
 static double drawn_median(const comparison *c, size_t row, const size_t *drawn, size_t count)
 {
     const workshop *w = c->shop;
-    const double *times = (c->given ? w->given : w->total) + row * w->processes;
-    size_t known = 0;
-    for (size_t i = 0; i < count; ++i) {
-        if (times[drawn[i]] == times[drawn[i]])
-            w->drawn[known++] = times[drawn[i]];
-    }
-    return mote_statistics_median(w->drawn, known);
+    const double *times = row_times(c, row);
+    for (size_t i = 0; i < count; ++i)
+        w->drawn[i] = times[w->shared[drawn[i]]];
+    return mote_statistics_median(w->drawn, count);
 }
 
 static double drawn_time(const comparison *c, const side *s, const size_t *drawn, size_t count)
@@ -150,6 +175,7 @@ static void free_workshop(workshop *w)
     free(w->total);
     free(w->rows);
     free(w->times);
+    free(w->shared);
 }
 
 /* Fills in the processes of one row; work holds the frames of each. */
@@ -194,6 +220,7 @@ static void make_workshop(const mote_summary *summary, workshop *w)
     w->total = mote_allocate(2 * times, sizeof *w->total);
     w->rows = mote_allocate((1 + MOTE_RIVALS) * rows, sizeof *w->rows);
     w->times = mote_allocate(2 * rows + w->processes, sizeof *w->times);
+    w->shared = mote_allocate(w->processes, sizeof *w->shared);
     w->given = w->total + times;
     for (size_t k = 0; k < MOTE_RIVALS; ++k)
         w->rivals[k] = w->rows + (1 + k) * rows;
@@ -202,20 +229,20 @@ static void make_workshop(const mote_summary *summary, workshop *w)
     fill_rows(w);
 }
 
-/* The interval of the speedup: the spread of the processes around their own centre, shifted to
-   the estimate, which uses the frames of all of them. */
+/* The interval of the speedup: the spread of the shared processes around their own centre,
+   shifted to the estimate, which uses the frames of all processes. */
 static void find_interval(const comparison *c, mote_front_ratio *ratio)
 {
-    const size_t processes = c->shop->processes;
     comparison context = *c;
+    find_shared(&context);
     const mote_confidence spread =
-        mote_statistics_process_interval(drawn_speed, &context, processes, BOOTSTRAP_SEED);
+        mote_statistics_process_interval(drawn_speed, &context, context.shared, BOOTSTRAP_SEED);
     double centre = sqrt(spread.low * spread.high); /* of Student's t interval */
-    if (processes >= MOTE_BOOTSTRAP_REPLICATES) {
-        size_t *all = mote_allocate(processes, sizeof *all);
-        for (size_t k = 0; k < processes; ++k)
+    if (context.shared >= MOTE_BOOTSTRAP_REPLICATES) {
+        size_t *all = mote_allocate(context.shared, sizeof *all);
+        for (size_t k = 0; k < context.shared; ++k)
             all[k] = k;
-        centre = drawn_speed(&context, all, processes);
+        centre = drawn_speed(&context, all, context.shared);
         free(all);
     }
     ratio->interval.low = ratio->faster * (spread.low / centre);

@@ -27,10 +27,11 @@ typedef enum mote_rival { MOTE_RIVAL_FCL, MOTE_RIVAL_ENGINE, MOTE_RIVALS } mote_
 /* A family against the best of one kind of rivals at one level. */
 typedef struct mote_front_ratio {
     double faster;            /* the rival's time divided by this; MOTE_NONE without one */
-    mote_confidence interval; /* of faster: spread of the processes (resampled from ten on,
-                                 otherwise Student's t), centred on it, given the configurations
-                                 that reach the error over all processes together; MOTE_NONE for
-                                 the rival itself */
+    mote_confidence interval; /* of faster: spread of the processes that both have (resampled
+                                 from ten on, otherwise Student's t), centred on it, given the
+                                 configurations that reach the error over all processes
+                                 together; MOTE_NONE for the rival itself, and where they share
+                                 fewer than two processes */
     size_t rival;             /* its row, the most accurate one where it lies between two;
                                  SIZE_MAX without one */
 } mote_front_ratio;

@@ -16,7 +16,7 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     char *csv = mote_format("cells/%s.csv", cell->id);
     char *pairs = mote_format("cells/%s.pairs.csv", cell->id);
     mote_status status = MOTE_OK;
-    if (mote_record_exists(to, json)) {
+    if (!mote_record_is_wanted(from, to, json)) {
         ++merged->present;
     } else {
         if (cell->status == MOTE_CELL_OK)

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FILE_LIMIT ((size_t)1 << 32)
-
 /* Fields before the contact field in a line of cells/ID.pairs.csv. */
 #define FIELDS_BEFORE_CONTACT 6
 
@@ -92,7 +90,7 @@ mote_status mote_scene_contacts_read(const char *directory, const mote_stored_ce
     *contacts = (mote_scene_contacts){.count = 0};
     char *path = mote_format("%s/cells/%s.pairs.csv", directory, cell->id), *text = NULL;
     size_t size;
-    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
+    mote_status status = mote_file_read(path, MOTE_PAIRS_LIMIT, &text, &size);
     if (status == MOTE_OK)
         status = read_lines(path, text, contacts);
     free(text);

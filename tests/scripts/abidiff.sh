@@ -4,8 +4,7 @@
 set -euo pipefail
 base=${1:?abidiff.sh BASE: name a revision}
 source=$(realpath "$(dirname "$0")/../..")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
 git -C "$source" archive --prefix=base/ "$base" | tar -x
 build() { # SOURCE BUILD

@@ -4,9 +4,8 @@
 # Usage: callers.sh SOURCE
 set -eu
 export LC_ALL=C
+. "$(dirname "$0")/work.sh"
 cd "$1"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 
 # Exceptions: a test makes documents from columns and compares them; front_time gives tests access to
 # a part of the fronts.

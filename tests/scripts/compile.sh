@@ -3,15 +3,10 @@
 # errors unchanged, the progress, and nothing of CMake's or make's.
 set -eu
 compile=$1/cmake/compile.sh
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
 
-fail() {
-    echo "compile.sh: $1" >&2
-    cat said >&2
-    exit 1
-}
+shown=said
 has() { grep -q -- "$1" said || fail "no '$1' in"; }
 has_not() { ! grep -q -- "$1" said || fail "'$1' in"; }
 

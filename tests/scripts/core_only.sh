@@ -4,10 +4,8 @@
 # for cc -static. It may need no other library, and all compilers must give the same bits.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
-fail() { echo "core_only.sh: $*" >&2; exit 1; }
 "$tests/documented.sh" track.c > track.c
 
 check()

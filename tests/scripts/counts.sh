@@ -3,9 +3,7 @@
 # own: one of 4 frames, one of 600, whose ranks are known.
 set -euo pipefail
 counts=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-fail() { echo "counts.sh: $*" >&2; exit 1; }
+. "$(dirname "$0")/work.sh"
 refused() { # STATUS TEXT ARGUMENT...
     local wanted=$1 says=$2 status=0
     shift 2

@@ -6,9 +6,7 @@ set -euo pipefail
 packages=$(realpath "$1")
 tests=$(realpath "$(dirname "$0")")
 source=$(realpath "$tests/../..")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-fail() { echo "deb.sh: $*" >&2; exit 1; }
+. "$(dirname "$0")/work.sh"
 
 lintian --allow-root --fail-on error "$packages"/*.deb || fail "lintian finds errors"
 for package in mote libmote0 libmote-dev python3-mote; do

@@ -4,14 +4,9 @@
 # shellcheck disable=SC2015 # fail does not return
 set -eu
 deps=$(realpath "$(dirname "$0")/../../cmake/deps.sh")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
-fail() {
-    echo "deps.sh: $*" >&2
-    cat calls said >&2
-    exit 1
-}
+shown="calls said"
 
 mkdir bin
 PATH=$work/bin:$PATH

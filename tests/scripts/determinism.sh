@@ -7,8 +7,7 @@
 # make reliability makes its table. BUILDS, of the environment: these alone, such as "gcc-O2 asan".
 set -eu
 build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -DMOTE_IN_TREE -ffp-contract=off -fno-math-errno -fno-trapping-math -I.
     -include $work/config.h"
 printf '#define MOTE_SOURCE_DIR "%s"\n' "$PWD" >"$work/config.h"

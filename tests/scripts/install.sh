@@ -5,10 +5,8 @@
 set -euo pipefail
 build=$(realpath "$1")
 tests=$(realpath "$(dirname "$0")")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
-fail() { echo "install.sh: $*" >&2; exit 1; }
 
 # make_line TARGET [VARIABLE=VALUE...]: the last line that make would run; the lines before it only build.
 make_line() {

@@ -3,7 +3,8 @@
 The list, tests/interface.txt, holds the functions of the installed headers with their types, structs with
 their sizes, members and offsets, values of enumerations and constants, and the number in the library's name,
 as gcc sees them. Anything of it that is gone or has changed fails; what is new is named. `accept` renews the
-list. Each function must be in libmote.so. gcc and readelf (binutils) are all that is needed."""
+list. Each function must be in libmote.so, and each variable there must be named in docs/compatibility.md, where
+it says why it is not promised. gcc, nm and readelf (binutils) are all that is needed."""
 
 import re
 import subprocess
@@ -12,6 +13,7 @@ import tempfile
 from pathlib import Path
 
 LIST = Path(__file__).resolve().parent.parent / "interface.txt"
+DOCUMENT = LIST.parent.parent / "docs/compatibility.md"
 HEAD = """# What libmote promises (docs/compatibility.md). `make interface-accept` writes this list.
 """
 BROKEN = """interface.py: the library no longer keeps what {list} promises: a program that was linked with the
@@ -130,11 +132,20 @@ def interface_lines(build):
     return sorted(lines | {f"library {soname[1]}: SONAME"})
 
 
-def missing_functions(build, lines):
-    exported = {line.split()[-1].split("@")[0]
-                for line in run("nm", "-D", "--defined-only", f"{build}/libmote.so").splitlines()}
+def exports(build):
+    """Of each name that libmote.so exports, nm's letter for what it is."""
+    lines = run("nm", "-D", "--defined-only", f"{build}/libmote.so").splitlines()
+    return {line.split()[-1].split("@")[0]: line.split()[-2] for line in lines}
+
+
+def missing_functions(exported, lines):
     declared = {line.split()[1].rstrip(":") for line in lines if line.startswith("function ")}
-    return sorted(declared - exported)
+    return sorted(declared - exported.keys())
+
+
+def unnamed_variables(exported):
+    named = set(re.findall(r"`(mote_\w+)`", DOCUMENT.read_text()))
+    return sorted(name for name, kind in exported.items() if kind in "BDGRSV" and name not in named)
 
 
 def compare(listed, lines):
@@ -154,9 +165,14 @@ def compare(listed, lines):
 def main():
     build = Path(sys.argv[1]).resolve()
     lines = interface_lines(build)
-    missing = missing_functions(build, lines)
+    exported = exports(build)
+    missing = missing_functions(exported, lines)
     if missing:
         return f"interface.py: in a public header, but not in libmote.so: {', '.join(missing)}"
+    unnamed = unnamed_variables(exported)
+    if unnamed:
+        return (f"interface.py: libmote.so exports variables that {DOCUMENT.name} does not name: {', '.join(unnamed)}; "
+                "make them functions, or name them there")
     if sys.argv[2:] == ["accept"]:
         LIST.write_text(HEAD + "\n".join(lines) + "\n")
         return print(f"{LIST.name}: {len(lines)} lines")

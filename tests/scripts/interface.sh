@@ -4,10 +4,8 @@
 set -euo pipefail
 build=$(realpath "$1")
 gate=$(realpath "$(dirname "$0")")/interface.py
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 cd "$work"
-fail() { echo "interface.sh: $*" >&2; exit 1; }
 
 /usr/bin/python3 "$gate" "$build"
 
@@ -37,6 +35,13 @@ plant status.h 's/MOTE_EINVAL,/MOTE_EPLANTED, MOTE_EINVAL,/'
 refused "value MOTE_EINVAL was: 1; now: 2"
 plant status.h 's/^(const char \*mote_error_text\(void\);)/\1 int mote_planted(void);/'
 refused "in a public header, but not in libmote.so: mote_planted"
+# A variable that the document of promises does not name.
+mkdir -p unnamed/tests/scripts unnamed/docs
+cp "$gate" unnamed/tests/scripts
+cp "$(dirname "$gate")/../interface.txt" unnamed/tests
+sed 's/`mote_impact_methods`//' "$(dirname "$gate")/../../docs/compatibility.md" > unnamed/docs/compatibility.md
+! /usr/bin/python3 unnamed/tests/scripts/interface.py "$build" > said 2>&1 || { cat said; fail "an unnamed variable is not found"; }
+grep -q 'exports variables that compatibility.md does not name: mote_impact_methods;' said || { cat said; fail "not said: mote_impact_methods"; }
 # An addition breaks nothing, and is named.
 plant status.h 's/^(const char \*mote_error_text\(void\);)/\1 static inline int mote_planted(void) { return 0; }/'
 /usr/bin/python3 "$gate" planted > said 2>&1 || { cat said; fail "an addition is refused"; }

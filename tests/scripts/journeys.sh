@@ -5,11 +5,10 @@
 # against closed forms where they exist.
 set -euo pipefail
 build=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 export LC_ALL=C.UTF-8
 step=start
-fail() { echo "journeys.sh: $step: $*" >&2; for file in out err; do [ ! -s "$work/$file" ] || { echo "-- $file"; tail -20 "$work/$file"; } >&2; done; exit 1; }
+shown="out err"
 
 cmake --install "$build" --prefix "$work/it's in/mote" > "$work/log" || fail "cannot be installed"
 mote="$work/it's in/mote/bin/mote"
@@ -25,8 +24,6 @@ do_() {
     "$mote" "$@" > "$work/out" 2> "$work/err" || status=$?
     [ "$status" -eq "$wanted" ] || fail "status $status, not $wanted"
 }
-says() { grep -qF -- "$1" "$work/out" || fail "does not print: $1"; }
-tells() { grep -qF -- "$1" "$work/err" || fail "does not tell: $1"; }
 # One line of an error, and nothing on standard output.
 refuses() {
     do_ "$@"

@@ -4,10 +4,9 @@
 # Skips and names instruction sets that this machine cannot run, and compilers that it lacks. few: four
 # unlike builds, as make test does; make determinism tries them all.
 set -eu
+. "$(dirname "$0")/work.sh"
 cd "$1"
 few=${2:-}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I."
 sources="tests/unit/core/test_portability.c tests/support/test_main.c tests/support/folder.c \
     harness/base/file.c harness/base/memory.c"

@@ -3,10 +3,8 @@
 # scenario: each file dropped in, one `make build`, one run, and all of them are in the table.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 # No pipe into grep -q: it exits at the first match, and the writer would fail.
-fail() { echo "stranger.sh: $*" >&2; exit 1; }
 
 cd "$tests/../.."
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"

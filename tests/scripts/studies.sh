@@ -3,11 +3,10 @@
 # repository of two studies of its own: fresh, stale, interrupted, failed, cut short, and bad tables.
 set -euo pipefail
 studies=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/work.sh"
 export JOBS=1
 step=start
-fail() { echo "studies.sh: $step: $*" >&2; cat "$work/out" "$work/err" >&2; exit 1; }
+shown="out err"
 cd "$work"
 git init -q repository
 cd repository
@@ -52,8 +51,6 @@ run() { # STATUS [ARGUMENT]
     "$studies" table.tsv records work "$@" >"$work/out" 2>"$work/err" || status=$?
     [ "$status" = "$wanted" ] || fail "status $status, not $wanted"
 }
-says() { grep -qF -- "$1" "$work/out" || fail "does not print: $1"; }
-tells() { grep -qF -- "$1" "$work/err" || fail "does not tell: $1"; }
 calls() { [ "$(sort "$work/calls" | tr '\n' ,)" = "$1" ] || fail "calls: $(tr '\n' , <"$work/calls")"; : >"$work/calls"; }
 
 step="everything is stale at first"

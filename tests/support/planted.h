@@ -7,23 +7,25 @@
 #include "harness/study/extreme.h"
 
 typedef struct plants {
-    long calls, failing; /* calls so far that may fail; the one that does, or 0 */
-    long simulated;      /* rows of approaches so far */
-    const char *folder;  /* where scenarios are written */
-    double error;        /* of particles, in L */
-    double exponent;     /* of times, over any quantity */
-    bool contact_seen;   /* particles saw the contact */
-    double ours_ns;      /* of particles and certified */
-    double trees_ratio;  /* how many times as long trees take */
-    size_t rows;         /* rows of the run against hierarchies, PLANTED_ROWS at most */
-    uint64_t passes;     /* of bodies through each other, with the paper's particles */
-    bool others_pass;    /* exact methods let one pass */
-    double ratio;        /* of the first control's time over the others', several bodies */
-    bool body_missed;    /* an exact method missed a contact of several bodies */
-    bool body_failed;    /* a cell of several bodies crashed, and one of the run */
-    bool bodies_failed;  /* all cells of several bodies crashed */
-    bool body_alone;     /* no exact method to compare contacts with */
-    int64_t body_bytes;  /* of each process of several bodies */
+    long calls, failing;   /* calls so far that may fail; the one that does, or 0 */
+    long simulated;        /* rows of approaches so far */
+    const char *folder;    /* where scenarios are written */
+    double error;          /* of particles, in L */
+    double exponent;       /* of times, over any quantity */
+    bool contact_seen;     /* particles saw the contact */
+    double ours_ns;        /* of particles and certified */
+    double trees_ratio;    /* how many times as long trees take */
+    size_t rows;           /* rows of the run against hierarchies, PLANTED_ROWS at most */
+    uint64_t passes;       /* of bodies through each other, with the paper's particles */
+    bool others_pass;      /* exact methods let one pass */
+    double ratio;          /* of the first control's time over the others', several bodies */
+    bool body_missed;      /* an exact method missed a contact of several bodies */
+    bool body_failed;      /* a cell of several bodies crashed, and one of the run */
+    bool replicate_failed; /* a replicate of each row of several bodies crashed, another did not
+                            */
+    bool bodies_failed;    /* all cells of several bodies crashed */
+    bool body_alone;       /* no exact method to compare contacts with */
+    int64_t body_bytes;    /* of each process of several bodies */
     mote_extreme_verdict ours_verdict, others_verdict; /* of certified; of other methods */
 } plants;
 

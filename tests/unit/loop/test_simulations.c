@@ -185,6 +185,30 @@ TEST(mote_summarize_and_report_show_simulations)
     mote_expect(0, "2 cells and 8 simulations copied", "merge again whole");
 }
 
+/* One simulation, stored as failed in the merged directory. */
+TEST(merge_prefers_a_good_simulation_to_a_failed_one)
+{
+    mote_expect(0, "", "simulate two.json --method certified --out good");
+    mote_expect(0, "0 cells and 1 simulations copied, 0 were there", "merge joined good");
+    assert_int_equal(system("sed -i 's/\"status\": \"ok\"/\"status\": \"crashed\"/' "
+                            "joined/simulations/*"),
+                     0);
+    mote_expect(0, "0 cells and 1 simulations copied, 0 were there", "merge joined good");
+    assert_int_equal(system("grep -q '\"status\": \"ok\"' joined/simulations/*"), 0);
+    mote_expect(0, "0 cells copied, 1 were there", "merge joined good");
+}
+
+/* 16 MiB is the largest scenario that is read; a step of two bodies takes about 400 bytes. */
+TEST(mote_simulate_writes_no_trace_that_it_could_not_read)
+{
+    mote_expect(4, "long.json: not written: it would have ",
+                "simulate two.json --method aabb-tree --steps 60000 --trace long.json");
+    assert_non_null(strstr(said, "at most 16777216 are read; record fewer frames"));
+    assert_false(file_exists("long.json"));
+    mote_expect(0, "", "simulate two.json --method aabb-tree --steps 100 --trace short.json");
+    mote_expect(0, "101 frames", "check short.json");
+}
+
 TEST(mote_simulate_refuses_shards_and_until_ci_without_a_directory)
 {
     mote_expect(2, "name a directory", BOTH " --shard 1/2");

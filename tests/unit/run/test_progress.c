@@ -19,12 +19,13 @@ static void run_into_file(const char *more)
     mote_expect(0, "", LINE " %s", more);
 }
 
-static void run_on_terminal(unsigned short columns)
+/* In the current folder. */
+static void go_on_on_terminal(const char *more, unsigned short columns)
 {
-    char line[] = LINE, *argv[PROGRAM_ARGUMENTS];
+    char line[512], *argv[PROGRAM_ARGUMENTS];
     const struct winsize size = {.ws_row = 24, .ws_col = columns};
     int terminal;
-    assert_int_equal(folder_next(), 0);
+    (void)snprintf(line, sizeof line, LINE " %s", more);
     const pid_t pid = forkpty(&terminal, NULL, NULL, &size);
     assert_true(pid >= 0);
     if (pid == 0) {
@@ -41,6 +42,12 @@ static void run_on_terminal(unsigned short columns)
     said[used] = '\0';
     (void)close(terminal);
     assert_int_equal(program_wait(pid), 0);
+}
+
+static void run_on_terminal(unsigned short columns)
+{
+    assert_int_equal(folder_next(), 0);
+    go_on_on_terminal("", columns);
 }
 
 TEST(progress_in_a_file_is_a_line_a_cell)
@@ -76,6 +83,15 @@ TEST(progress_on_a_terminal_is_one_line_that_moves)
     assert_true(moved > 4);
     assert_int_equal(test_count(said, "\r\033[K4 cells measured in "), 1);
     assert_int_equal(test_count(said, " s left\r\n"), 0); /* none remains */
+}
+
+/* A third replicate is stored; the budget ends before one that is not. */
+TEST(a_run_that_goes_on_counts_only_what_it_measures_itself)
+{
+    run_into_file("--replicates 3");
+    go_on_on_terminal("--until-ci 0.001% --budget 0", 100);
+    assert_int_equal(test_count(said, "plan: 4 cells, 4 of them done"), 1);
+    assert_int_equal(test_count(said, " cells measured in "), 0);
 }
 
 /* The table of all columns is twice as wide as a terminal. */

@@ -64,6 +64,42 @@ TEST(run_of_two_methods_leaves_a_cell_each_replicate)
     json_decref(manifest);
 }
 
+/* Whether a list of libraries, "fcl 0.7.0, ccd 2.0", has the version of one. */
+static bool has_version(const char *libraries, const char *library)
+{
+    char *name = mote_format(", %s ", library);
+    const char *at = strstr(libraries, name);
+    const bool known = at && strspn(at + strlen(name), "0123456789") > 0;
+    free(name);
+    return known;
+}
+
+/* Those without a file of pkg-config, too, and those of optional methods where they are. */
+TEST(run_manifest_names_the_versions_of_libraries)
+{
+    static const char *const always[] = {"ccd",     "assimp", "gsl",
+                                         "jansson", "hacd",   "meshoptimizer"};
+    static const struct {
+        const char *library, *method;
+    } optional[] = {{"embree", "embree-contact"},
+                    {"ode", "ode"},
+                    {"bullet", "bullet-gimpact"},
+                    {"coal", "coal-aabb"}};
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method aabb-tree --no-summary"), 0);
+    json_t *manifest = read_json("manifest.json");
+    const char *libraries = mote_text_at(manifest, "libraries");
+    for (size_t i = 0; i < ROWS_OF(always); ++i) {
+        if (!has_version(libraries, always[i]))
+            fail_msg("no version of %s: %s", always[i], libraries);
+    }
+    for (size_t i = 0; i < ROWS_OF(optional); ++i) {
+        const bool built = mote_method_find(optional[i].method) != NULL;
+        if (has_version(libraries, optional[i].library) != built)
+            fail_msg("%s: %s", optional[i].library, libraries);
+    }
+    json_decref(manifest);
+}
+
 /* The path of some CSV file of the run. */
 static void find_csv(char *path, size_t size)
 {
@@ -72,6 +108,20 @@ static void find_csv(char *path, size_t size)
     path[0] = '\0';
     for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
         if (strstr(entry->d_name, ".csv"))
+            (void)snprintf(path, size, "cells/%s", entry->d_name);
+    }
+    (void)closedir(folder);
+    assert_true(path[0] != '\0');
+}
+
+/* The JSON file of the cell whose name has this part. */
+static void find_cell(const char *part, char *path, size_t size)
+{
+    DIR *folder = opendir("cells");
+    assert_non_null(folder);
+    path[0] = '\0';
+    for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
+        if (strstr(entry->d_name, part) && strstr(entry->d_name, ".json"))
             (void)snprintf(path, size, "cells/%s", entry->d_name);
     }
     (void)closedir(folder);
@@ -375,17 +425,60 @@ TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
     assert_non_null(strstr(said, "0 of them done"));
 }
 
-TEST(run_sweeps_what_an_interrupted_write_left)
+/* The stride of the cells of a configuration is that of a stored one, also for a cell that
+   stands before it in the plan: the stored one is of the second replicate, and not the stride
+   that a probe of so fast a method suggests. */
+TEST(run_goes_on_with_the_stride_of_a_stored_cell_that_comes_later)
 {
-    static const char *const names[] = {"summary.json.part", "cells/a.json.part",
-                                        "truth/b.csv.part"};
-    file_put("cells/notes", "kept\n");
-    for (int i = 0; i < 3; ++i)
-        file_put(names[i], "part\n");
+    static const char line[] = "tt --frames 1-32 --replicates 2 --method aabb-tree";
+    char first[320] = "", second[320] = "";
+    assert_int_equal(run(line), 0);
+    find_cell("-r1-", first, sizeof first);
+    find_cell("-r2-", second, sizeof second);
+    json_t *cell = read_json(second);
+    assert_int_equal(json_integer_value(json_object_get(cell, "stride")), 1);
+    assert_int_equal(json_object_set_new(cell, "stride", json_integer(16)), 0);
+    assert_int_equal(mote_record_json(".", second, cell), MOTE_OK);
+    assert_int_equal(folder_remove(first), 0);
+    mote_expect(0, "plan: 2 cells, 1 of them done", "run %s --no-summary --out .", line);
+    cell = read_json(first);
+    assert_int_equal(json_integer_value(json_object_get(cell, "stride")), 16);
+    json_decref(cell);
+}
+
+/* Whatever else ends in .part is the user's. */
+TEST(run_sweeps_what_an_interrupted_write_left_and_nothing_else)
+{
+    static const char *const left[] = {"manifest.json.12.part",     "summary.json.12.part",
+                                       "summary.csv.12.part",       "fronts.csv.7.part",
+                                       "speed.csv.4194304.part",    "cells/a.json.12.part",
+                                       "cells/a.pairs.csv.12.part", "truth/b.csv.12.part"};
+    static const char *const kept[] = {"notes.part",
+                                       "film.mp4.12.part",
+                                       "a.json.12.part",
+                                       "summary.json.part",
+                                       "summary.json.x1.part",
+                                       "summary.json.12.part.gz",
+                                       ".12.part",
+                                       "12.part",
+                                       "cells/notes",
+                                       "cells/notes.part",
+                                       "cells/.json.12.part",
+                                       "truth/notes.12.part"};
+    for (size_t i = 0; i < ROWS_OF(left); ++i)
+        file_put(left[i], "part\n");
+    for (size_t i = 0; i < ROWS_OF(kept); ++i)
+        file_put(kept[i], "kept\n");
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
-    for (int i = 0; i < 3; ++i)
-        assert_false(file_exists(names[i]));
-    assert_true(file_exists("cells/notes"));
+    for (size_t i = 0; i < ROWS_OF(left); ++i) {
+        if (file_exists(left[i]))
+            fail_msg("%s is left", left[i]);
+    }
+    for (size_t i = 0; i < ROWS_OF(kept); ++i) {
+        if (!file_exists(kept[i]))
+            fail_msg("%s is gone", kept[i]);
+    }
+    assert_int_equal(folder_remove("truth/notes.12.part"), 0);
 }
 
 TEST(run_whose_lock_cannot_be_opened_says_so)

@@ -342,6 +342,9 @@ TEST(bodies_say_which_requirement_is_not_met)
     assert_int_equal(size_of("bodies.json", "gains"), 0);
     assert_true(text_has("bodies.csv", ",,,,,,,,,,,,,,,,,,,crashed\n"));
     plant_good();
+    planted.replicate_failed = true;
+    assert_false(bodies_met());
+    plant_good();
     planted.body_alone = true;
     assert_false(bodies_met());
     static const int64_t bytes[] = {0, (int64_t)1 << 30};

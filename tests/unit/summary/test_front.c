@@ -180,6 +180,35 @@ TEST(fronts_of_a_run_say_how_much_faster_at_each_error)
     mote_summary_free(&summary);
 }
 
+/* Beside ten replicates of FCL: four of one method, each with a time of its own, and one of
+   another, which says nothing about how much its times vary. */
+TEST(interval_of_a_row_of_few_replicates_comes_from_its_own)
+{
+    static const double times[] = {100, 200, 400, 800};
+    scenario = "uneven";
+    for (int r = 1; r <= 10; ++r)
+        write_cell("fcl-aabb", "ua", 0, r, 1e6, 0);
+    for (int r = 1; r <= 4; ++r)
+        write_cell("few", "ub", 0, r, times[r - 1], 0);
+    write_cell("single", "uc", 0, 1, 1e3, 0);
+    scenario = "s";
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
+    const mote_front_ratio few = find_front(&fronts, "few")->speed[0].to[MOTE_RIVAL_FCL];
+    /* Student's t on logarithms that are log 2 apart: deviation sqrt(5/3) log 2, and
+       t(3, 0.975) = 3.182446. The times are written with three digits and more. */
+    const double half = 3.182446305 * sqrt(5.0 / 3) / sqrt(4) * log(2);
+    near(few.interval.low, few.faster * exp(-half), 1e-2);
+    near(few.interval.high, few.faster * exp(half), 1e-2);
+    const mote_front_ratio single = find_front(&fronts, "single")->speed[0].to[MOTE_RIVAL_FCL];
+    near(single.faster, 1e3, 0.1);
+    assert_true(isnan(single.interval.low) && isnan(single.interval.high));
+    mote_fronts_free(&fronts);
+    mote_summary_free(&summary);
+    assert_int_equal(system("rm cells/u[a-c]-*"), 0);
+}
+
 static json_t *first_speed(const json_t *fronts, const char *family)
 {
     size_t i;

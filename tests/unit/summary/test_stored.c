@@ -1,13 +1,16 @@
+#define _DEFAULT_SOURCE /* truncate */
 /* Runs whose files the test wrote: damaged ones are refused by file and line, and summaries and
    merges follow from the rest. */
 #include "harness/figure/figure.h"
 #include "harness/summary/merge.h"
 #include "harness/base/record.h"
+#include "harness/summary/scene_contacts.h"
 #include "harness/summary/summary.h"
 #include "tests/support/stored_run.h"
 #include "tests/support/test.h"
 
 #include <math.h>
+#include <unistd.h>
 
 TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
 {
@@ -454,4 +457,50 @@ TEST(merge_copies_what_is_not_there_and_adds_sessions)
     merge(4, "out/manifest.json: no list of sessions");
     file_put("out/manifest.json", "no JSON\n");
     merge(4, "out/manifest.json:1:");
+}
+
+static bool merged_is_ok(void)
+{
+    json_t *cell = NULL;
+    assert_int_equal(mote_record_read_json("out", "cells/fcl-aabb-1.json", &cell), MOTE_OK);
+    const bool ok = strcmp(mote_text_at(cell, "status"), "ok") == 0;
+    json_decref(cell);
+    return ok;
+}
+
+/* A cell that failed in one shard and not in another, merged in both orders. */
+TEST(merge_prefers_a_good_cell_to_a_failed_one)
+{
+    static const char *const bad[] = {"crashed", "timeout", "unsupported"};
+    const stored_cell good = {.rows = ROWS, .more = ", " BY_ONE};
+    file_put("good/manifest.json", "{" BY_ONE ", \"sessions\": [1]}\n");
+    file_put("bad/manifest.json", "{" BY_ONE ", \"sessions\": [2]}\n");
+    stored_cell_put("good", good);
+    for (size_t i = 0; i < ROWS_OF(bad); ++i) {
+        stored_cell_put("bad", (stored_cell){.status = bad[i], .more = ", " BY_ONE});
+        mote_expect(0, "1 cells copied, 0 were there", "merge out bad");
+        mote_expect(0, "0 cells copied, 1 were there", "merge out bad");
+        assert_false(merged_is_ok());
+        mote_expect(0, "1 cells copied, 0 were there", "merge out good");
+        assert_true(merged_is_ok() && file_exists("out/cells/fcl-aabb-1.csv"));
+        mote_expect(0, "0 cells copied, 1 were there", "merge out bad");
+        assert_true(merged_is_ok());
+        assert_int_equal(folder_remove("out"), 0);
+    }
+}
+
+/* Whatever reads a file of pairs has the same limit: 4 GiB. */
+TEST(merge_and_summary_refuse_pairs_of_the_same_size)
+{
+    static const char says[] = "a.pairs.csv: 4294967297 bytes; at most 4294967296 are read";
+    const mote_stored_cell cell = {.id = "a"};
+    mote_scene_contacts contacts;
+    file_put("in/cells/a.pairs.csv", "frame\n");
+    assert_int_equal(truncate("in/cells/a.pairs.csv", ((off_t)4 << 30) + 1), 0);
+    assert_int_equal(mote_record_copy("in", "out", "cells/a.pairs.csv"), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), says))
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mote_scene_contacts_read("in", &cell, &contacts), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), says))
+        fail_msg("%s", mote_error_text());
 }

@@ -269,26 +269,37 @@ static void check_refused(crowd *c, const mote_impact_scene_question *q, const c
         fail_msg("%s", mote_error_text());
 }
 
-TEST(mote_impact_scene_refuses_with_reason)
+/* A crowd that a good question can be asked of. */
+static mote_impact_scene_question good_question(crowd *c)
 {
-    crowd c;
-    mote_impact_found found;
-    mote_impact_scene *none = NULL;
-    crowd_init(&c, 5, 2);
-    move_at_random(&c, 3, 1, 0.1, false);
-    const mote_impact_scene_question good = question_of(&c, 0.01);
-    mote_impact_scene_question q = good;
+    crowd_init(c, 5, 2);
+    move_at_random(c, 3, 1, 0.1, false);
+    return question_of(c, 0.01);
+}
+
+TEST(mote_impact_scene_refuses_times_and_tolerances)
+{
     static const double times[][2] = {{0.7, 0.2}, {-0.1, 1}, {0, 1.1}, {NAN, 1}, {0, NAN}};
+    static const double tolerances[] = {NAN, -1, INFINITY};
+    crowd c;
+    const mote_impact_scene_question good = good_question(&c);
+    mote_impact_scene_question q = good;
     for (size_t i = 0; i < ROWS_OF(times); ++i) {
         q.begin = times[i][0], q.end = times[i][1];
         check_refused(&c, &q, "impacts are looked for from");
     }
-    static const double tolerances[] = {NAN, -1, INFINITY};
     q = good;
     for (size_t i = 0; i < ROWS_OF(tolerances); ++i) {
         q.tolerance = tolerances[i];
         check_refused(&c, &q, "a tolerance of");
     }
+    crowd_free(&c);
+}
+
+TEST(mote_impact_scene_refuses_paths_of_pieces)
+{
+    crowd c;
+    const mote_impact_scene_question good = good_question(&c);
     for (int i = 0; i < BODIES; ++i)
         c.paths[i].count = 3;
     check_refused(&c, &good, "body 0: its path has 3 pieces");
@@ -302,6 +313,22 @@ TEST(mote_impact_scene_refuses_with_reason)
     c.of[2].piece[0].centre[1].y = NAN;
     check_refused(&c, &good, "body 2");
     c.of[2].piece[0].centre[1].y = 0;
+    /* weights: of a skin (body 3) and of functions (body 4) */
+    for (int i = 3; i <= 4; ++i) {
+        char says[40];
+        assert_int_equal(kinds[c.shape_of[i]], i == 3 ? IMPACT_SKIN : IMPACT_CSRBF);
+        c.of[i].control[0][4] = NAN;
+        (void)snprintf(says, sizeof says, "body %d: a number in piece 0", i);
+        check_refused(&c, &good, says);
+        c.of[i].control[0][4] = 0;
+    }
+    crowd_free(&c);
+}
+
+TEST(mote_impact_scene_refuses_paths_of_positions)
+{
+    crowd c;
+    const mote_impact_scene_question good = good_question(&c);
     c.of[1].frame[1][3].z = NAN;
     check_refused(&c, &good, "body 1");
     c.of[1].frame[1][3].z = 0;
@@ -317,33 +344,43 @@ TEST(mote_impact_scene_refuses_with_reason)
     c.paths[1].positions = c.of[1].positions;
     c.paths[2].positions = c.of[1].positions;
     check_refused(&c, &good, "body 2: its path is to be one of pieces");
-    c.paths[2].positions = NULL;
-    /* weights: of a skin (body 3) and of functions (body 4) */
-    for (int i = 3; i <= 4; ++i) {
-        char says[40];
-        assert_int_equal(kinds[c.shape_of[i]], i == 3 ? IMPACT_SKIN : IMPACT_CSRBF);
-        c.of[i].control[0][4] = NAN;
-        (void)snprintf(says, sizeof says, "body %d: a number in piece 0", i);
-        check_refused(&c, &good, says);
-        c.of[i].control[0][4] = 0;
-    }
-    /* what only the pairs' searches see; the first pair that does says so */
-    q = good;
+    crowd_free(&c);
+}
+
+/* What only the pairs' searches see: the first pair that does says so. */
+TEST(mote_impact_scene_refuses_turns_that_are_opposite)
+{
+    crowd c;
+    mote_impact_scene_question q = good_question(&c);
     q.tolerance = 100; /* all are near */
     for (int i = 0; i < 4; ++i)
         c.of[8].piece[0].turn[i] = (mote_quaternion){i % 2 ? -1 : 1, 0, 0, 0};
     check_refused(&c, &q, "8: the quaternions of piece 0 of body");
-    assert_int_equal(
-        mote_impact_scene_pair(c.scene, c.paths, (const uint32_t[]){3, 3}, 0, 1, 0, &found),
-        MOTE_EINVAL);
-    assert_int_equal(mote_impact_scene_pair(c.scene, c.paths, (const uint32_t[]){3, BODIES}, 0,
-                                            1, 0, &found),
-                     MOTE_EINVAL);
+    crowd_free(&c);
+}
+
+TEST(mote_impact_scene_refuses_bodies_and_shapes_that_are_not_there)
+{
+    static const uint32_t bodies[][2] = {{3, 3}, {3, BODIES}};
+    crowd c;
+    mote_impact_found found;
+    mote_impact_scene *none = NULL;
+    (void)good_question(&c);
+    for (size_t i = 0; i < ROWS_OF(bodies); ++i)
+        assert_int_equal(mote_impact_scene_pair(c.scene, c.paths, bodies[i], 0, 1, 0, &found),
+                         MOTE_EINVAL);
     const mote_body *const shapes[1] = {&c.of[0].body};
     assert_int_equal(
         mote_impact_scene_create(shapes, 1, (const uint32_t[]){0, 1}, 2, &c.options, &none),
         MOTE_EINVAL);
     assert_null(none);
+    crowd_free(&c);
+}
+
+TEST(mote_impact_scene_bytes_count_its_memory)
+{
+    crowd c;
+    crowd_init(&c, 5, 2);
     assert_true(mote_impact_scene_bytes(c.scene) > 1000);
     crowd_free(&c);
 }
