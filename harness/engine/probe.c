@@ -3,6 +3,7 @@
 #include "core/body/deform.h"
 #include "core/stream/stream_scene.h"
 #include "harness/base/memory.h"
+#include "harness/engine/engine_kind.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,12 +118,9 @@ static mote_status bound_body(mote_probe *p, const mote_body_state *states, uint
     const uint32_t stand_in = p->setup.shape_of[i];
     show(p, states, i, stand_in);
     const mote_status status = bound(p);
-    if (status == MOTE_OK) {
+    if (status == MOTE_OK)
         *box = p->boxes[stand_in];
-        return MOTE_OK;
-    }
-    const char *what = strchr(mote_error_text(), ':'); /* it names the stand-in */
-    return mote_fail(status, "body %u%s", i + 1, what ? what : "");
+    return mote_engine_blame(status, i); /* it names the stand-in */
 }
 
 mote_status mote_probe_all(mote_probe *probe, const mote_body_state *states,
