@@ -2,6 +2,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/import_child.h"
 #include "harness/sequence/frame_file.h"
 #include "harness/process/child.h"
 
@@ -121,6 +122,8 @@ static mote_status make(const char *path, const char *data, size_t size,
     if (!is_whole(&head, NULL, size))
         return mote_fail(MOTE_EIO, "%s: reading it ended early", path);
     head.import.split.where[MOTE_SPLIT_TEXT - 1] = '\0';
+    if (mote_import_is_strict() && mote_import_refuse_split(path, &head.import) != MOTE_OK)
+        return MOTE_EINVAL;
     double *xyz = mote_copy(data, 3 * head.vertex_count * sizeof *xyz);
     data += 3 * head.vertex_count * sizeof *xyz;
     uint32_t *indices = mote_copy(data, 3 * head.triangle_count * sizeof *indices);

@@ -158,8 +158,8 @@ TEST(positions_follow_scale_and_motion)
     mote_scenario_destroy(s);
 }
 
-/* An unused vertex and an edge of three faces: the mesh's vertices differ from the file's. */
-TEST(positions_find_the_vertices_that_the_mesh_kept)
+/* Two frames of an unused vertex and an edge of three faces. */
+static void write_fan(void)
 {
     for (int k = 1; k <= 2; ++k) {
         char name[16], text[256];
@@ -171,6 +171,12 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
         file_put(name, text);
     }
     write_scenario("\"positions\": \"n1.obj\"", "", 2);
+}
+
+/* The mesh's vertices differ from the file's. */
+TEST(positions_find_the_vertices_that_the_mesh_kept)
+{
+    write_fan();
     mote_scenario *s = load();
     const mote_mesh *mesh = s->body[0].mesh;
     assert_true(mesh->vertex_count > 5); /* split */
@@ -182,6 +188,18 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
     }
     mote_frame_buffer_destroy(buffer);
     mote_scenario_destroy(s);
+}
+
+TEST(positions_with_an_edge_of_three_faces_are_strictly_refused)
+{
+    write_fan();
+    mote_expect(0, "1 edge of more than two faces cut apart", "check s.json");
+    mote_expect(
+        4, "n1.obj: 1 edge of more than two faces (non-manifold): ", "--strict check s.json");
+    mote_expect(4, "(non-manifold)", "run --strict s.json --dry-run");
+    file_put("n1.obj", "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
+    file_put("n2.obj", "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+    mote_expect(0, "2 frames", "--strict check s.json");
 }
 
 /* Reads the frames backwards in a child process, which must not affect its parent's reads. */
