@@ -127,7 +127,10 @@ static const command_line bad_lines[] = {
      "--tolerance 0: give L, above 0 and at most 0.05"},
     {"simulate tt --method magic", 4, "magic"},
     {"simulate nothing --method certified", 4, "nothing"},
-    {"simulate teapot --method certified", 4, "open"},
+    {"simulate teapot --method certified", 4,
+     "body 1 cannot respond to a collision: its mesh is open (528 edges have one face), so "
+     "that "
+     "it has no volume and no mass; give a mesh without open edges, which `mote mesh FILE`"},
     {"simulate tt --method certified --steps 2 --film /proc/x.gif", 4, "/proc/x.gif"},
     {"simulate tt --method certified --time-step x", 2, "--time-step x"},
     {"simulate tt --method certified --time-step nan", 2, "--time-step nan"},

@@ -202,6 +202,20 @@ TEST(positions_with_an_edge_of_three_faces_are_strictly_refused)
     mote_expect(0, "2 frames", "--strict check s.json");
 }
 
+/* A sheet is open, too, but closing it would not help. */
+TEST(positions_are_refused_by_the_closed_loop_as_such)
+{
+    for (int k = 1; k <= 3; ++k) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "f%d.obj", k);
+        sheet_write_obj(name, k);
+    }
+    write_scenario("\"positions\": \"f1.obj\"", "", 3);
+    mote_expect(4, "mote: s.json: a closed loop moves each body as its contacts tell",
+                "simulate s.json --method stream --steps 2");
+    mote_expect(4, "but of body 1 only positions are given", "simulate s.json --method stream");
+}
+
 /* Reads the frames backwards in a child process, which must not affect its parent's reads. */
 static mote_status read_backwards(void *context, int output)
 {
