@@ -37,11 +37,10 @@ static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file 
         return status;
     if (is_ply(path)) {
         status = mote_frame_file_read_ply(path, data, size, file, soup);
-    } else if (strlen(data) != size) {
-        status =
-            mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(data));
     } else {
-        status = mote_soup_read_obj(path, data, soup);
+        status = mote_soup_check_encoding(path, data, size);
+        if (status == MOTE_OK)
+            status = mote_soup_read_obj(path, data, soup);
         if (status == MOTE_OK)
             status = mote_frame_file_read_obj(path, data, file);
     }

@@ -202,6 +202,22 @@ TEST(positions_with_an_edge_of_three_faces_are_strictly_refused)
     mote_expect(0, "2 frames", "--strict check s.json");
 }
 
+TEST(positions_of_no_text_or_no_vertex_are_refused_as_such)
+{
+    static const char ply[] =
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+        "property float y\nproperty float z\nelement face 1\nproperty list "
+        "uchar int vertex_indices\nend_header\n3 0 1 2\n";
+    write_scenario("\"positions\": \"e1.obj\"", "", 1);
+    file_put("e1.obj", "");
+    mote_expect(4, "e1.obj: an empty file, no face in it; give a mesh", "check s.json");
+    file_put("e1.obj", "\xff\xfev");
+    mote_expect(4, "e1.obj: a text in UTF-16; save it as UTF-8", "check s.json");
+    write_scenario("\"positions\": \"e1.ply\"", "", 1);
+    file_put("e1.ply", ply);
+    mote_expect(4, "e1.ply:9: declares no vertex; give a mesh", "check s.json");
+}
+
 /* A sheet is open, too, but closing it would not help. */
 TEST(positions_are_refused_by_the_closed_loop_as_such)
 {

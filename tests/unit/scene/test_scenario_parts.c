@@ -428,6 +428,12 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
     }
     mote_bodies none = {.frames = 1, .count = 1};
     assert_int_equal(mote_bodies_poses_read("none.csv", &none), MOTE_EIO);
+    /* no room for 6e13 bytes of poses is asked for before they are there */
+    mote_bodies many = {.frames = 1000000, .count = 1000000, .length = 2};
+    file_put("p.csv", POSES ROW_1);
+    assert_int_equal(mote_bodies_poses_read("p.csv", &many), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "p.csv:3: not a pose; expected frame 1, body 2"));
+    free(many.recorded);
     assert_null(none.recorded);
 }
 
