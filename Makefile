@@ -53,7 +53,7 @@
 #   make test-library                               the library alone: gcc, clang, musl-gcc
 #   make test-stranger                              a method, field, scenario from docs/extending.md alone
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
-#   make test-exports                               exports read by jq, pandas, scipy
+#   make test-exports                               exports read by jq, pandas, scipy; the schema of scenarios
 #   make test-bare                                   bench and test as on a fresh Debian 12
 #   make install [prefix=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make uninstall [prefix=/usr/local] [DESTDIR=]    removes exactly what make install put there
@@ -460,6 +460,7 @@ test-cluster: build deps-cluster
 
 test-exports: build deps-exports
 	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) results/schema
+	@/usr/bin/python3 tests/scripts/scenario_schema.py $(MOTE) datasets/scenario.schema.json datasets
 	@$(call compile,$(BUILD),mote_shared)
 	@PYTHONPATH=$(CURDIR)/$(BUILD)/python MOTE_NEED_MATPLOTLIB=1 /usr/bin/python3 tests/python/test_examples.py \
 	    $(CURDIR)/tests/scripts/documented.sh $(CURDIR)/docs/python.md $(CURDIR)/$(MOTE)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 struct mote_stream_batch {
-    mote_stream **streams; /* [count], the first of which owns the trees */
+    mote_stream **streams; /* [count], of stretches; they share the trees of steady */
     mote_stream *steady;   /* of queries that go on from the last one */
     size_t count;
     double slack;

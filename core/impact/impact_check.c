@@ -6,7 +6,8 @@
 /* Quaternions of a piece that come nearer to 0 than this part of the longest are refused. */
 #define LEAST_TURN 1e-3
 
-/* Pieces may miss each other by this part of the body's size: rounding, nothing else. */
+/* Pieces may miss each other by this part of the body's size, by what their centres, rotations
+   and weights do together: rounding, nothing else. The noise (impact_rate.c) holds it. */
 #define JUMP 0x1p-42
 
 _Static_assert(sizeof(mote_vec3) == 3 * sizeof(double), "three numbers, no gaps");
@@ -139,8 +140,9 @@ static mote_status check_join(const mote_impact_search *s, const mote_path *path
         for (int c = 0; c < 3; ++c)
             turned += fabs(end.m[r][c] - start.m[r][c]);
     }
-    if (!(mote_length(mote_sub(a->centre[3], b->centre[0])) <= JUMP * size &&
-          turned <= JUMP + 0x1p-49 * spin && weights_apart(s, body, a, b) <= JUMP * size))
+    const double apart = mote_length(mote_sub(a->centre[3], b->centre[0])) + turned * size +
+                         weights_apart(s, body, a, b);
+    if (!(apart <= (JUMP + 0x1p-49 * spin) * size))
         return mote_fail(MOTE_EINVAL,
                          "piece %u of body %d's path does not begin where piece %u ends", k,
                          body, k - 1);

@@ -30,7 +30,8 @@
    entries are wrong by less than 2^-48, and by 2^-50 of the angle of a spin more, since the
    angle is rounded; products and sums with J functions, in 8 lanes, by (J / 8 + 12) 2^-53. All
    are multiples of `size`, the sum of the sizes of all parts. 2^-41 (1 + J / 1024) size is more
-   than that, and holds what pieces may miss each other by (impact_check.c), 2^-42 size, too. */
+   than that, and holds what pieces may miss each other by (impact_check.c), 2^-42 size in all,
+   too. Bounds of speeds contain the noise, so that each piece that is passed counts a miss. */
 #include "core/impact/impact_state.h"
 
 #include <string.h>

@@ -214,22 +214,66 @@ mote_status mote_impact_scene_boxes(const mote_impact_scene *scene, const mote_p
     return status;
 }
 
-/* The bodies by the low ends of their boxes along x, by their numbers where these are equal.
-   The order of the last query is nearly right, so that insertion takes few steps. */
-static void sort_bodies(mote_impact_scene *s)
+/* Whether body i comes before body j: by the low ends of their boxes along x, by their numbers
+   where these are equal. */
+static bool comes_before(const mote_impact_scene *s, uint32_t i, uint32_t j)
+{
+    const double a = s->boxes[i].low.x, b = s->boxes[j].low.x;
+    return a < b || (!(a > b) && i < j);
+}
+
+/* Sorts by insertion, unless that takes more than so many moves. */
+static bool insert_bodies(mote_impact_scene *s, uint64_t moves)
 {
     for (uint32_t k = 1; k < s->body_count; ++k) {
         const uint32_t i = s->order[k];
-        const double low = s->boxes[i].low.x;
         uint32_t to = k;
-        for (; to > 0; --to) {
-            const uint32_t j = s->order[to - 1];
-            if (s->boxes[j].low.x < low || (!(s->boxes[j].low.x > low) && j < i))
-                break;
-            s->order[to] = j;
-        }
+        for (; to > 0 && comes_before(s, i, s->order[to - 1]); --to)
+            s->order[to] = s->order[to - 1];
         s->order[to] = i;
+        if (k - to > moves)
+            return false;
+        moves -= k - to;
     }
+    return true;
+}
+
+/* Moves the body at `from` down in a heap of the first count, the last of which is at the top.
+ */
+static void sift_down(mote_impact_scene *s, uint32_t from, uint32_t count)
+{
+    const uint32_t i = s->order[from];
+    for (uint64_t child; (child = 2 * (uint64_t)from + 1) < count; from = (uint32_t)child) {
+        if (child + 1 < count && comes_before(s, s->order[child], s->order[child + 1]))
+            ++child;
+        if (!comes_before(s, i, s->order[child]))
+            break;
+        s->order[from] = s->order[child];
+    }
+    s->order[from] = i;
+}
+
+/* Sorts in place, in n log n moves whatever the order is: a query does not allocate. */
+static void heap_sort_bodies(mote_impact_scene *s)
+{
+    for (uint32_t k = s->body_count / 2; k > 0; --k)
+        sift_down(s, k - 1, s->body_count);
+    for (uint32_t k = s->body_count; k > 1; --k) {
+        const uint32_t last = s->order[0];
+        s->order[0] = s->order[k - 1];
+        s->order[k - 1] = last;
+        sift_down(s, 0, k - 1);
+    }
+}
+
+/* The order of the last query is nearly right, so that insertion takes few moves; not at the
+   first query, and after a leap. */
+#define MOVES_A_BODY 16
+
+static void sort_bodies(mote_impact_scene *s)
+{
+    if (!insert_bodies(s, (uint64_t)MOVES_A_BODY * s->body_count))
+        heap_sort_bodies(s);
 }
 
 /* Whether two boxes are near each other across the direction of the sweep. */

@@ -69,7 +69,8 @@ typedef struct mote_impact_scene_found {
 /* The earliest impact of the scene; of impacts that begin at once, that of the lowest bodies.
    A pair that only grazes, or stays undecided, counts like an impact: it ends what is proven.
    MOTE_EINVAL as mote_impact_scene_boxes and mote_impact_query. Allocates only when more pairs
-   are near than ever before; MOTE_ENOMEM. */
+   are near than ever before; MOTE_ENOMEM. Cost: that of the boxes; sorting them, O(n) where
+   they are nearly in the order of the last query, O(n log n) otherwise; and the pairs'. */
 mote_status mote_impact_scene_query(mote_impact_scene *scene,
                                     const mote_impact_scene_question *question,
                                     mote_impact_scene_found *found);

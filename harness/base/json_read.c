@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Up to here a double holds every whole number. */
+#define WHOLE_MAX 0x1p53
+
 mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
                             json_t **root)
 {
@@ -100,6 +103,8 @@ mote_json mote_json_element(const mote_json *array, size_t index)
 static bool is_known(const char *known, const char *key)
 {
     size_t length = strlen(key);
+    if (strchr(key, '|'))
+        return false;
     for (const char *word = known; word; word = strchr(word, '|')) {
         if (*word == '|')
             ++word;
@@ -109,12 +114,43 @@ static bool is_known(const char *known, const char *key)
     return false;
 }
 
-mote_status mote_json_object(const mote_json *node, const char *known)
+/* What a value is, in the words of a message. */
+static const char *kind_of(const mote_json *node, char text[48])
 {
     if (!node->value)
-        return mote_json_fail(node, "is missing; give an object");
-    if (json_typeof(node->value) != JSON_OBJECT)
-        return mote_json_fail(node, "is not an object; write {...} with keys of %s", known);
+        return "is missing";
+    switch (json_typeof(node->value)) {
+    case JSON_OBJECT:
+        return "is an object";
+    case JSON_ARRAY:
+        (void)snprintf(text, 48, "is an array of %zu", json_array_size(node->value));
+        return text;
+    case JSON_STRING:
+        return json_string_length(node->value) > 0 ? "is a string" : "is an empty string";
+    case JSON_INTEGER:
+    case JSON_REAL:
+        (void)snprintf(text, 48, "is %.15g", json_number_value(node->value));
+        return text;
+    case JSON_NULL:
+        return "is null";
+    default:
+        return json_is_true(node->value) ? "is true" : "is false";
+    }
+}
+
+mote_status mote_json_refuse(const mote_json *node, const char *right)
+{
+    char kind[48];
+    return mote_json_fail(node, "%s; give %s", kind_of(node, kind), right);
+}
+
+mote_status mote_json_object(const mote_json *node, const char *known)
+{
+    if (!json_is_object(node->value)) {
+        char right[300];
+        (void)snprintf(right, sizeof right, "an object {...} with keys of %s", known);
+        return mote_json_refuse(node, right);
+    }
     const char *key;
     json_t *value;
     json_object_foreach(node->value, key, value)
@@ -131,11 +167,12 @@ mote_status mote_json_array(const mote_json *node, size_t minimum, size_t maximu
 {
     size_t count = json_array_size(node->value);
     if (!json_is_array(node->value) || count < minimum || count > maximum) {
+        char right[80];
         if (minimum == maximum)
-            return mote_json_fail(node, "is %s; give an array of %zu",
-                                  node->value ? "not that" : "missing", minimum);
-        return mote_json_fail(node, "is %s; give an array of %zu to %zu",
-                              node->value ? "not that" : "missing", minimum, maximum);
+            (void)snprintf(right, sizeof right, "an array of %zu", minimum);
+        else
+            (void)snprintf(right, sizeof right, "an array of %zu to %zu", minimum, maximum);
+        return mote_json_refuse(node, right);
     }
     *size = count;
     return MOTE_OK;
@@ -143,13 +180,12 @@ mote_status mote_json_array(const mote_json *node, size_t minimum, size_t maximu
 
 mote_status mote_json_real(const mote_json *node, double minimum, double maximum, double *value)
 {
-    double number = json_number_value(node->value);
-    if (!node->value)
-        return mote_json_fail(node, "is missing; give a number from %g to %g", minimum,
-                              maximum);
-    if (!json_is_number(node->value))
-        return mote_json_fail(node, "is not a number; give one from %g to %g", minimum,
-                              maximum);
+    const double number = json_number_value(node->value);
+    if (!json_is_number(node->value)) {
+        char right[80];
+        (void)snprintf(right, sizeof right, "a number from %g to %g", minimum, maximum);
+        return mote_json_refuse(node, right);
+    }
     /* A NaN fails this test. */
     if (!(number >= minimum && number <= maximum))
         return mote_json_fail(node, "%.17g is out of range; give a number from %g to %g",
@@ -158,14 +194,29 @@ mote_status mote_json_real(const mote_json *node, double minimum, double maximum
     return MOTE_OK;
 }
 
+/* The whole number that a value is, also if it is written as 2.0 or 2e0. */
+static bool whole_number(const json_t *value, int64_t *number)
+{
+    *number = json_integer_value(value);
+    if (json_is_integer(value))
+        return true;
+    const double real = json_real_value(value);
+    const bool is_whole = json_is_real(value) && fabs(real) <= WHOLE_MAX && real == floor(real);
+    if (is_whole)
+        *number = (int64_t)real;
+    return is_whole;
+}
+
 mote_status mote_json_integer(const mote_json *node, int64_t minimum, int64_t maximum,
                               int64_t *value)
 {
-    if (!json_is_integer(node->value))
-        return mote_json_fail(node, "is %s; give a whole number from %lld to %lld",
-                              node->value ? "not a whole number" : "missing",
-                              (long long)minimum, (long long)maximum);
-    int64_t number = json_integer_value(node->value);
+    int64_t number;
+    if (!whole_number(node->value, &number)) {
+        char right[80];
+        (void)snprintf(right, sizeof right, "a whole number from %lld to %lld",
+                       (long long)minimum, (long long)maximum);
+        return mote_json_refuse(node, right);
+    }
     if (number < minimum || number > maximum)
         return mote_json_fail(node, "%lld is out of range; give %lld to %lld",
                               (long long)number, (long long)minimum, (long long)maximum);
@@ -195,12 +246,33 @@ mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum
     return status;
 }
 
+mote_status mote_json_number_or_vec3(const mote_json *node, double minimum, double maximum,
+                                     mote_vec3 *value)
+{
+    if (json_is_array(node->value))
+        return mote_json_vec3(node, minimum, maximum, value);
+    if (!json_is_number(node->value))
+        return mote_json_refuse(node, "a number or an array of 3");
+    double number = 0;
+    const mote_status status = mote_json_real(node, minimum, maximum, &number);
+    if (status == MOTE_OK)
+        *value = mote_vec3_make(number, number, number);
+    return status;
+}
+
+mote_status mote_json_boolean(const mote_json *node, bool *value)
+{
+    if (!json_is_boolean(node->value))
+        return mote_json_refuse(node, "true or false");
+    *value = json_is_true(node->value);
+    return MOTE_OK;
+}
+
 mote_status mote_json_string(const mote_json *node, const char **value)
 {
     const char *text = json_string_value(node->value);
     if (!text || !text[0])
-        return mote_json_fail(node, "is %s; give a string",
-                              node->value ? "not a string" : "missing");
+        return mote_json_refuse(node, "a string");
     *value = text;
     return MOTE_OK;
 }

@@ -40,6 +40,9 @@ mote_json mote_json_root(const mote_json_file *file);
 /* MOTE_EINVAL with "FILE:LINE: PATH: TEXT"; the line is that of the value. */
 mote_status mote_json_fail(const mote_json *node, const char *format, ...) MOTE_PRINTF(2, 3);
 
+/* The same with what the value is and what would be right: "is null; give RIGHT". */
+mote_status mote_json_refuse(const mote_json *node, const char *right);
+
 /* Puts the node's place before the error text of a failure that its value caused, unless it
    begins with a place in this file; the status becomes MOTE_EINVAL. MOTE_OK and MOTE_ENOMEM
    stay as they are. */
@@ -60,6 +63,7 @@ mote_status mote_json_array(const mote_json *node, size_t minimum, size_t maximu
 /* A number in [minimum, maximum], finite. */
 mote_status mote_json_real(const mote_json *node, double minimum, double maximum,
                            double *value);
+/* A whole number in [minimum, maximum], also if it is written as 2.0. */
 mote_status mote_json_integer(const mote_json *node, int64_t minimum, int64_t maximum,
                               int64_t *value);
 /* An array of exactly count numbers. */
@@ -67,6 +71,10 @@ mote_status mote_json_reals(const mote_json *node, size_t count, double minimum,
                             double *values);
 mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum,
                            mote_vec3 *value);
+/* A number for all three axes, or an array of one for each. */
+mote_status mote_json_number_or_vec3(const mote_json *node, double minimum, double maximum,
+                                     mote_vec3 *value);
+mote_status mote_json_boolean(const mote_json *node, bool *value);
 /* A string that is not empty, borrowed from the file. */
 mote_status mote_json_string(const mote_json *node, const char **value);
 

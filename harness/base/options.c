@@ -277,3 +277,14 @@ mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
     *last = b;
     return MOTE_OK;
 }
+
+int mote_frames_argument(const char *command, const char *name, const char *text,
+                         uint32_t *first, uint32_t *last)
+{
+    uint64_t from = 0, to = 0;
+    if (mote_read_range(text, UINT32_MAX, &from, &to) != MOTE_OK)
+        return mote_command_usage(command, "--%s %s", name, mote_error_text());
+    *first = (uint32_t)from;
+    *last = (uint32_t)to;
+    return MOTE_EXIT_DONE;
+}

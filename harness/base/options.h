@@ -86,6 +86,11 @@ bool mote_read_direction(const char *text, double direction[3]);
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
                             uint64_t *last);
 
+/* Reads the value of --NAME as a range of frames, which may have any number of 32 bits.
+   MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
+int mote_frames_argument(const char *command, const char *name, const char *text,
+                         uint32_t *first, uint32_t *last);
+
 /* Reads a study's options, "--out DIR" and "--quick"; argv[0] is its name, *directory starts
    as its default. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 int mote_study_read(int argc, char **argv, const char **directory, bool *quick);

@@ -15,46 +15,57 @@
 
 #define DIGITS 15 /* of a number in the file, so that 0.1 is written 0.1 */
 
+#define GAPS_MAX 1024
+
 typedef struct request {
-    const char *scenario, *gaps, *output;
+    const char *scenario, *output;
+    uint32_t frame[GAPS_MAX]; /* ascending */
+    double gap[GAPS_MAX];
+    uint32_t gaps;
     double direction[3];
     uint64_t every;
 } request;
 
-/* "FRAME:GAP,FRAME:GAP" as a curve. */
-static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **curve)
+/* Reads "FRAME:GAP,FRAME:GAP". MOTE_EINVAL with what is wrong. */
+static mote_status read_gaps(const char *text, request *wish)
 {
-    uint32_t at[1024];
-    double gap[1024];
-    uint32_t count = 0;
-    const char *from = text;
-    for (;;) {
+    wish->gaps = 0;
+    for (const char *from = text;;) {
         char *end;
-        unsigned long frame = strtoul(from, &end, 10);
-        if (end == from || *end != ':' || frame < 1 || frame > frames || count == 1024)
-            return mote_fail(MOTE_EINVAL,
-                             "--gaps: %.20s: write FRAME:GAP,FRAME:GAP, frames "
-                             "from 1 to %u, gaps in L",
-                             from, frames);
-        from = end + 1;
-        gap[count] = strtod(from, &end);
-        if (end == from || (*end != ',' && *end != '\0') ||
-            !(gap[count] > -1 && gap[count] < 1e3))
-            return mote_fail(MOTE_EINVAL, "--gaps: %.20s: not a gap; give -1 to 1000, in L",
-                             from);
-        at[count++] = (uint32_t)frame;
-        if (*end == '\0')
-            break;
-        from = end + 1;
-    }
-    for (uint32_t k = 1; k < count; ++k) {
-        if (at[k] <= at[k - 1])
+        const bool is_number = from[0] >= '0' && from[0] <= '9';
+        const unsigned long frame = is_number ? strtoul(from, &end, 10) : 0;
+        const uint32_t count = wish->gaps;
+        if (frame < 1 || frame > MOTE_FRAMES_MAX || *end != ':' || count == GAPS_MAX)
             return mote_fail(
                 MOTE_EINVAL,
-                "--gaps: frame %u comes after frame %u; give them in ascending order", at[k],
-                at[k - 1]);
+                "%.20s: write FRAME:GAP,FRAME:GAP, at most %d of them, frames from "
+                "1 to %d, gaps in L",
+                from, GAPS_MAX, MOTE_FRAMES_MAX);
+        if (count > 0 && frame <= wish->frame[count - 1])
+            return mote_fail(MOTE_EINVAL,
+                             "frame %lu comes after frame %u; give them in ascending order",
+                             frame, wish->frame[count - 1]);
+        from = end + 1;
+        const double gap = strtod(from, &end);
+        if (end == from || (*end != ',' && *end != '\0') || !(gap > -1 && gap < 1e3))
+            return mote_fail(MOTE_EINVAL, "%.20s: not a gap; give -1 to 1000, in L", from);
+        wish->frame[count] = (uint32_t)frame;
+        wish->gap[count] = gap;
+        ++wish->gaps;
+        if (*end == '\0')
+            return MOTE_OK;
+        from = end + 1;
     }
-    return mote_curve_create(at, gap, count, 1, curve);
+}
+
+/* The gaps as a curve over the frames of a scenario. */
+static mote_status make_curve(const request *wish, const mote_scenario *scenario,
+                              mote_curve **curve)
+{
+    if (wish->frame[wish->gaps - 1] > scenario->frames)
+        return mote_fail(MOTE_EINVAL, "--gaps: frame %u: %s has frames 1-%u; name some of them",
+                         wish->frame[wish->gaps - 1], scenario->name, scenario->frames);
+    return mote_curve_create(wish->frame, wish->gap, wish->gaps, 1, curve);
 }
 
 /* Lists frames 1, 1 + every, ..., the last, and each with a requested gap, in order. */
@@ -126,7 +137,7 @@ static mote_status write_result(const request *wish, const mote_scenario *scenar
 static mote_status approach(const request *wish, const mote_scenario *scenario)
 {
     mote_curve *wished = NULL;
-    mote_status status = read_gaps(wish->gaps, scenario->frames, &wished);
+    mote_status status = make_curve(wish, scenario, &wished);
     if (status != MOTE_OK)
         return status;
     const size_t most = scenario->frames / wish->every + 2 + wished->count;
@@ -166,7 +177,7 @@ const mote_option mote_options_approach[] = {
 int mote_command_approach(int argc, char **argv)
 {
     mote_option_reader reader = mote_option_begin(mote_options_approach, argc, argv);
-    request wish = {NULL, NULL, NULL, {1, 0, 0}, 16};
+    request wish = {.direction = {1, 0, 0}, .every = 16};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         bool good = option != MOTE_OPTION_ERROR;
@@ -174,10 +185,12 @@ int mote_command_approach(int argc, char **argv)
             return mote_command_usage("approach", "%s: one scenario at a time", value);
         if (option == MOTE_OPTION_PLAIN)
             wish.scenario = value;
-        else if (option == 0)
-            wish.gaps = value;
+        else if (option == 0 && read_gaps(value, &wish) != MOTE_OK)
+            return mote_command_usage("approach", "--gaps %s", mote_error_text());
         else if (option == 1 && !mote_read_unsigned(value, 1, 100000, &wish.every))
-            return mote_command_usage("approach", "--every %s: give a number of frames", value);
+            return mote_command_usage(
+                "approach", "--every %s: give a whole number of frames from 1 to 100000",
+                value);
         else if (option == 2 && !mote_read_direction(value, wish.direction))
             return mote_command_usage("approach", "--direction %s: give x,y,z, not all 0",
                                       value);
@@ -186,7 +199,7 @@ int mote_command_approach(int argc, char **argv)
         if (!good)
             return MOTE_EXIT_USAGE;
     }
-    if (!wish.scenario || !wish.gaps || !wish.output)
+    if (!wish.scenario || wish.gaps == 0 || !wish.output)
         return mote_command_usage("approach", "something is missing; write `mote approach "
                                               "SCENARIO --gaps 1:0.5,100:-0.01 -o FILE.json`");
     mote_scenario *scenario;

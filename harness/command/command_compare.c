@@ -96,8 +96,8 @@ int mote_command_compare(int argc, char **argv)
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
         if (option == 1 && !mote_read_real(value, 0, 10, &floor))
-            return mote_command_usage(argv[0], "--floor %s: expected a share, 0.05 for 5 %%",
-                                      value);
+            return mote_command_usage(
+                argv[0], "--floor %s: expected a share from 0 to 10, 0.05 for 5 %%", value);
         if (option == 0 && strcmp(value, "table") != 0 && strcmp(value, "json") != 0)
             return mote_command_usage(argv[0], "--format %s: choose table or json", value);
         if (option == 0)

@@ -217,7 +217,8 @@ static int read_request(int argc, char **argv, request *wish)
         if (option == MOTE_OPTION_PLAIN)
             wish->scenario = value;
         else if (option == 0 && !mote_read_unsigned(value, 1, UINT32_MAX, &wish->frame))
-            return mote_command_usage("export", "--frame %s: give a number from 1", value);
+            return mote_command_usage("export", "--frame %s: give a whole number from 1 to %u",
+                                      value, UINT32_MAX);
         else if (option == 1)
             wish->directory = value;
         else if (option == 2 && wish->count == METHODS_MAX)

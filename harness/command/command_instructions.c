@@ -22,6 +22,7 @@ enum {
 
 typedef struct request {
     const char *scenario, *frames, *particles, *out;
+    uint32_t first, last;
     bool inside, has_method;
     mote_choices choices;
 } request;
@@ -55,7 +56,9 @@ static int read_arguments(int argc, char **argv, request *q)
     if (!q->scenario || !q->frames || !q->has_method || (!q->out && !q->inside))
         return mote_command_usage(argv[0],
                                   "a scenario, --frames, --method and --out are needed");
-    return MOTE_EXIT_DONE;
+    if (mote_particles_check(q->particles) != MOTE_OK)
+        return mote_command_usage(argv[0], "--particles %s", mote_error_text());
+    return mote_frames_argument(argv[0], "frames", q->frames, &q->first, &q->last);
 }
 
 static mote_status read_methods(int argc, char **argv, request *q)
@@ -74,21 +77,16 @@ static mote_status read_methods(int argc, char **argv, request *q)
 int mote_command_instructions(int argc, char **argv)
 {
     request q = {0};
-    uint64_t first, last;
     int code = read_arguments(argc, argv, &q);
     if (code != MOTE_EXIT_DONE)
         return code;
-    mote_status status = mote_read_range(q.frames, UINT32_MAX, &first, &last);
-    if (status == MOTE_OK)
-        status = read_methods(argc, argv, &q);
+    mote_status status = read_methods(argc, argv, &q);
     if (status == MOTE_OK && !q.inside && !mote_instructions_possible())
         status = mote_fail(MOTE_EIO, "valgrind: cannot be run; apt-get install valgrind");
     if (status == MOTE_OK && q.inside)
-        status = mote_instructions_run(q.scenario, (uint32_t)first, (uint32_t)last,
-                                       &q.choices.items[0]);
+        status = mote_instructions_run(q.scenario, q.first, q.last, &q.choices.items[0]);
     else if (status == MOTE_OK)
-        status = mote_instructions_count(q.scenario, (uint32_t)first, (uint32_t)last,
-                                         &q.choices, q.out);
+        status = mote_instructions_count(q.scenario, q.first, q.last, &q.choices, q.out);
     mote_choices_free(&q.choices);
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }

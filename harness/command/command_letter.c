@@ -130,8 +130,12 @@ int mote_command_letter(int argc, char **argv)
             path = value;
         else if (option == 2)
             order = value;
-        else if (!mote_read_unsigned(value, 0, SIZE_MAX, &triangles))
-            return mote_command_usage("letter", "--triangles %s: give a whole number", value);
+        else if (!mote_read_unsigned(value, MOTE_LETTER_MIN_TRIANGLES,
+                                     MOTE_LETTER_MAX_TRIANGLES, &triangles) ||
+                 triangles % 2 != 0)
+            return mote_command_usage(
+                "letter", "--triangles %s: give an even number from %d to %d", value,
+                MOTE_LETTER_MIN_TRIANGLES, MOTE_LETTER_MAX_TRIANGLES);
     }
     if (!letter || !path || triangles == 0)
         return mote_command_usage("letter", "something is missing; write `mote letter W "

@@ -67,6 +67,7 @@ typedef struct request {
     const char *plain[2 + MOTE_RACE_CELLS];
     size_t plain_count;
     mote_choices choices;
+    uint32_t first, last;         /* of --frames; 1 and 0: not given */
     char *names[MOTE_RACE_CELLS]; /* of scenarios, without their frames */
     char *labels[2];
     mote_race_cell cells[MOTE_RACE_CELLS];
@@ -112,25 +113,33 @@ static bool read_share(const char *text, double *share)
     return *share > 0;
 }
 
-static int read_numbers(const char *command, const request *q, mote_race_options *race)
+static int read_numbers(const char *command, request *q, mote_race_options *race)
 {
     const char *const *v = q->values;
     if (v[OPTION_UNTIL] && !read_share(v[OPTION_UNTIL], &race->until))
-        return mote_command_usage(command, "--until %s: expected a share such as 1%%",
-                                  v[OPTION_UNTIL]);
+        return mote_command_usage(
+            command, "--until %s: expected a share above 0, at most 100%%, such as 1%%",
+            v[OPTION_UNTIL]);
     if (v[OPTION_REAL] && !read_share(v[OPTION_REAL], &race->real))
-        return mote_command_usage(command, "--real %s: expected a share such as 1%%",
-                                  v[OPTION_REAL]);
+        return mote_command_usage(
+            command, "--real %s: expected a share above 0, at most 100%%, such as 1%%",
+            v[OPTION_REAL]);
     if (v[OPTION_BUDGET] && !mote_read_real(v[OPTION_BUDGET], 0, SECONDS_MOST, &race->budget))
-        return mote_command_usage(command, "--budget %s: expected seconds", v[OPTION_BUDGET]);
+        return mote_command_usage(command, "--budget %s: expected seconds, from 0 to %g",
+                                  v[OPTION_BUDGET], SECONDS_MOST);
     if (v[OPTION_TIMEOUT] &&
         !mote_read_real(v[OPTION_TIMEOUT], 0.001, SECONDS_MOST, &race->timeout))
-        return mote_command_usage(command, "--timeout %s: expected seconds, more than 0",
-                                  v[OPTION_TIMEOUT]);
+        return mote_command_usage(command, "--timeout %s: expected seconds, from 0.001 to %g",
+                                  v[OPTION_TIMEOUT], SECONDS_MOST);
     if (v[OPTION_SEED] && !mote_read_unsigned(v[OPTION_SEED], 0, UINT64_MAX, &race->seed))
-        return mote_command_usage(command, "--seed %s: expected a whole number",
+        return mote_command_usage(command, "--seed %s: expected a whole number below 2^64",
                                   v[OPTION_SEED]);
-    return MOTE_EXIT_DONE;
+    if (mote_particles_check(v[OPTION_PARTICLES]) != MOTE_OK)
+        return mote_command_usage(command, "--particles %s", mote_error_text());
+    q->first = 1;
+    return v[OPTION_FRAMES]
+               ? mote_frames_argument(command, "frames", v[OPTION_FRAMES], &q->first, &q->last)
+               : MOTE_EXIT_DONE;
 }
 
 static int read_words(const char *command, request *q)
@@ -166,19 +175,15 @@ static mote_status read_methods(int argc, char **argv, request *q)
 }
 
 /* Reads the frames of a scenario: "ww@950-1149" has its own. */
-static mote_status read_frames(request *q, const char *text, char **name, mote_race_cell *cell)
+static void read_frames(const request *q, const char *text, char **name, mote_race_cell *cell)
 {
-    uint64_t first = 1, last = 0;
+    uint64_t first = q->first, last = q->last;
     const char *at = strrchr(text, '@');
-    mote_status status = MOTE_OK;
     *name = at && mote_read_range(at + 1, UINT32_MAX, &first, &last) == MOTE_OK
                 ? mote_format("%.*s", (int)(at - text), text)
                 : mote_duplicate(text);
-    if (last == 0 && q->values[OPTION_FRAMES])
-        status = mote_read_range(q->values[OPTION_FRAMES], UINT32_MAX, &first, &last);
     cell->first = (uint32_t)first;
     cell->last = (uint32_t)last;
-    return status;
 }
 
 /* Makes a cell for each scenario and method. */
@@ -189,9 +194,7 @@ static mote_status make_cells(request *q)
         mote_race_cell cell = {.cache = cache && strcmp(cache, "evict") == 0 ? MOTE_CACHE_EVICT
                                                                              : MOTE_CACHE_HOT,
                                .seed = 1};
-        const mote_status status = read_frames(q, q->plain[s], &q->names[s - 2], &cell);
-        if (status != MOTE_OK)
-            return status;
+        read_frames(q, q->plain[s], &q->names[s - 2], &cell);
         for (size_t m = 0; m < q->choices.count; ++m) {
             if (q->race.cell_count == MOTE_RACE_CELLS)
                 return mote_fail(MOTE_EINVAL, "more than %d cells; race fewer",

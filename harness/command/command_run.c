@@ -97,7 +97,7 @@ typedef struct request {
     const char **scenarios; /* [argc] */
     const char **methods;   /* [argc] */
     size_t method_count;
-    const char *particles, *frames;
+    const char *particles;
     mote_shard shard;
     const char *pair_files[2], *direction; /* of --pair and --direction, or NULL */
     char *pair;                            /* name of the scenario from these, or NULL */
@@ -173,9 +173,6 @@ static bool set_option(request *q, int option, const char *value, const char **e
     case OPTION_REPLICATES:
         *expected = "a whole number from 1 to 1000";
         return read_count(value, MOTE_REPLICATES_MAX, &plan->replicates);
-    case OPTION_FRAMES:
-        q->frames = value;
-        return true;
     case OPTION_OUT:
         q->run.directory = value;
         *expected = "a directory";
@@ -187,14 +184,15 @@ static bool set_option(request *q, int option, const char *value, const char **e
         *expected = "a whole number below 2^62";
         return mote_read_unsigned(value, 0, MOTE_SEED_MAX, &plan->seed);
     case OPTION_TIMEOUT:
-        *expected = "seconds, at least 0.001";
+        *expected = "seconds, from 0.001 to 1e9";
         return mote_read_real(value, 1e-3, 1e9, &q->run.timeout);
     case OPTION_CACHE:
         return read_cache(value, &plan->cache);
     case OPTION_STRIDE:
+        *expected = "auto, or a whole number from 1 to 4294967295";
         return read_stride(value, &plan->stride);
     case OPTION_STEP:
-        *expected = "ascending whole numbers of at least 1, 32 at most: 1,3,10,30,100";
+        *expected = "ascending whole numbers from 1 to 4294967295, 32 at most: 1,3,10,30,100";
         return read_steps(value, plan);
     case OPTION_FIXED_SEED:
         plan->fixed_seed = true;
@@ -206,10 +204,10 @@ static bool set_option(request *q, int option, const char *value, const char **e
         *expected = "a percentage from 0.001% to 100%";
         return mote_read_percent(value, &q->until_share);
     case OPTION_BUDGET:
-        *expected = "seconds";
+        *expected = "seconds, from 0 to 1e9";
         return mote_read_real(value, 0, 1e9, &q->run.budget);
     case OPTION_PROGRESS:
-        *expected = "seconds";
+        *expected = "seconds, from 0 to 1e9";
         return mote_read_real(value, 0, 1e9, &q->run.progress);
     case OPTION_NO_SUMMARY:
         q->no_summary = true;
@@ -281,11 +279,19 @@ static int read_arguments(int argc, char **argv, request *q)
             if (!read_pair(q, &reader, value))
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
+        } else if (option == OPTION_FRAMES) {
+            /* Frames beyond a scenario's end are found when it is loaded. */
+            mote_plan_options *plan = &q->run.plan;
+            if (mote_frames_argument(argv[0], "frames", value, &plan->first, &plan->last) !=
+                MOTE_EXIT_DONE)
+                return MOTE_EXIT_USAGE;
         } else if (!set_option(q, option, value, &expected)) {
             return mote_command_usage(argv[0], "--%s %s: expected %s",
                                       mote_options_run[option].name, value, expected);
         }
     }
+    if (mote_particles_check(q->particles) != MOTE_OK)
+        return mote_command_usage(argv[0], "--particles %s", mote_error_text());
     if (q->until_share > 0 && q->run.plan.jobs > 1)
         return mote_command_usage(argv[0], "--until-ci is for times, --jobs for accuracy; "
                                            "leave out one of them");
@@ -323,18 +329,6 @@ static mote_status expand_methods(request *q)
     return status;
 }
 
-/* Frames beyond a scenario's end are found when it is loaded. */
-static mote_status read_frames(request *q)
-{
-    uint64_t first = 0, last = 0;
-    mote_status status = MOTE_OK;
-    if (q->frames)
-        status = mote_read_range(q->frames, UINT32_MAX, &first, &last);
-    q->run.plan.first = (uint32_t)first;
-    q->run.plan.last = (uint32_t)last;
-    return status == MOTE_OK ? MOTE_OK : mote_fail(status, "--frames %s", mote_error_text());
-}
-
 /* Prints summary and table, even of an interrupted run. The whole table is wider than a
    terminal. */
 static int report(const char *directory)
@@ -355,7 +349,7 @@ static int report(const char *directory)
 
 static int execute(request *q)
 {
-    if (expand_methods(q) != MOTE_OK || read_frames(q) != MOTE_OK)
+    if (expand_methods(q) != MOTE_OK)
         return mote_command_fail();
     q->run.plan.budget = q->run.budget;
     mote_run_outcome outcome;

@@ -158,10 +158,14 @@ int mote_command_sequence(int argc, char **argv)
         } else if (option == 2) {
             wish.directory = value;
         } else if (option == 1 && !mote_read_unsigned(value, 1, FRAMES_MAX, &wish.frames)) {
-            return mote_command_usage("sequence", "--frames %s: give 1 to %d", value,
-                                      FRAMES_MAX);
-        } else if (option == 0 && !mote_read_unsigned(value, 0, SIZE_MAX, &wish.triangles)) {
-            return mote_command_usage("sequence", "--triangles %s: give a whole number", value);
+            return mote_command_usage(
+                "sequence", "--frames %s: give a whole number from 1 to %d", value, FRAMES_MAX);
+        } else if (option == 0 &&
+                   !mote_read_unsigned(value, MOTE_SIMULATED_MIN_TRIANGLES,
+                                       MOTE_SIMULATED_MAX_TRIANGLES, &wish.triangles)) {
+            return mote_command_usage(
+                "sequence", "--triangles %s: give a whole number from %d to %d", value,
+                MOTE_SIMULATED_MIN_TRIANGLES, MOTE_SIMULATED_MAX_TRIANGLES);
         }
     }
     if (!wish.kind || !wish.directory || wish.triangles == 0)

@@ -281,15 +281,16 @@ enum {
 
 #define DEFAULT_BUDGET 600
 
-static bool read_number(const char *value, double *number)
+/* Reads a number above 0. */
+static bool read_positive(const char *value, double maximum, double *number)
 {
-    return mote_read_real(value, -1e300, 1e300, number);
+    return mote_read_real(value, 0, maximum, number) && *number > 0;
 }
 
 /* Reads a valid value into wish and returns NULL; otherwise returns what would be valid. */
 static const char *read_value(request *wish, int option, const char *value)
 {
-    static const char number[] = "give a number";
+    static const char frames[] = "give frames, above 0 and at most 1000";
     switch (option) {
     case OPTION_JSON:
         wish->json = true;
@@ -297,22 +298,28 @@ static const char *read_value(request *wish, int option, const char *value)
     case OPTION_STEPS:
         return mote_read_unsigned(value, 1, MOTE_SIMULATION_STEPS_MAX, &wish->steps)
                    ? NULL
-                   : "give a number of steps from 1 to 1000000";
+                   : "give a whole number from 1 to 1000000";
     case OPTION_SEED:
-        return mote_read_unsigned(value, 0, UINT64_MAX, &wish->seed) ? NULL
-                                                                     : "give a whole number";
+        return mote_read_unsigned(value, 0, UINT64_MAX, &wish->seed)
+                   ? NULL
+                   : "give a whole number below 2^64";
     case OPTION_DENSITY:
-        return read_number(value, &wish->density) ? NULL : number;
+        return read_positive(value, 1e300, &wish->density)
+                   ? NULL
+                   : "give a number above 0 and at most 1e300";
     case OPTION_RESTITUTION:
-        return read_number(value, &wish->restitution) ? NULL : number;
+        return mote_read_real(value, 0, 1, &wish->restitution) ? NULL
+                                                               : "give a number from 0 to 1";
     case OPTION_TOLERANCE:
-        return read_number(value, &wish->tolerance) ? NULL : "give a number, of L";
+        return read_positive(value, MOTE_SIMULATION_NEAR, &wish->tolerance)
+                   ? NULL
+                   : "give L, above 0 and at most 0.05";
     case OPTION_GRAVITY:
         return read_vector(value, &wish->gravity) ? NULL : "give x,y,z, in L per frame squared";
     case OPTION_TIME_STEP:
-        return read_number(value, &wish->time_step) ? NULL : "give a number, of frames";
+        return read_positive(value, MOTE_SIMULATION_STEP_MAX, &wish->time_step) ? NULL : frames;
     case OPTION_STEP:
-        return read_number(value, &wish->step) ? NULL : "give a number, of frames";
+        return read_positive(value, MOTE_SIMULATION_STEP_MAX, &wish->step) ? NULL : frames;
     case OPTION_SAMPLED:
         wish->sampled = true;
         return NULL;
@@ -325,7 +332,7 @@ static const char *read_value(request *wish, int option, const char *value)
     case OPTION_REPLICATES:
         return mote_read_unsigned(value, 1, MOTE_REPLICATES_MAX, &wish->replicates)
                    ? NULL
-                   : "give a number from 1 to 1000";
+                   : "give a whole number from 1 to 1000";
     case OPTION_OUT:
         wish->out = value;
         return NULL;
@@ -335,11 +342,12 @@ static const char *read_value(request *wish, int option, const char *value)
         return mote_read_percent(value, &wish->share) ? NULL
                                                       : "give a percentage from 0.001% to 100%";
     case OPTION_BUDGET:
-        return mote_read_real(value, 0, 1e9, &wish->budget) ? NULL : "give seconds";
+        return mote_read_real(value, 0, 1e9, &wish->budget) ? NULL
+                                                            : "give seconds, from 0 to 1e9";
     default:
         return mote_read_unsigned(value, 1, MOTE_CHILDREN_MAX, &wish->jobs)
                    ? NULL
-                   : "give a number from 1 to 256";
+                   : "give a whole number from 1 to 256";
     }
 }
 
@@ -363,7 +371,7 @@ static const char *clash(const request *wish)
     if (wish->out && (wish->trace || wish->film))
         return "--trace and --film are of one simulation; leave out --out";
     if (wish->out && wish->seed > MOTE_SEED_MAX)
-        return "--seed: with --out a number of at most 62 bits";
+        return "--seed: with --out a whole number below 2^62";
     return NULL;
 }
 

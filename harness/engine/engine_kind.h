@@ -112,6 +112,12 @@ mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
 /* Sets the boxes of all bodies from deformed roots, or from given positions, timed. */
 mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost);
 
+/* A failure's status, after a text that begins with "body N", which libraries count from 0, is
+   made to begin with body i, counted from 1 as all that users read; with N itself where i is
+   MOTE_ENGINE_SAME. */
+mote_status mote_engine_blame(mote_status status, uint32_t i);
+#define MOTE_ENGINE_SAME UINT32_MAX
+
 /* Copies the answers of a scene to e->now. */
 void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count);
 

@@ -5,6 +5,7 @@
 #include "harness/base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* A scene of the bodies that have fields. */
@@ -56,6 +57,17 @@ void mote_engine_destroy_near(mote_engine *e)
     free(e->scene_body);
 }
 
+mote_status mote_engine_blame(mote_status status, uint32_t i)
+{
+    const char *text = mote_error_text();
+    unsigned number;
+    int length = 0;
+    if (status == MOTE_OK || sscanf(text, "body %u%n", &number, &length) != 1)
+        return status;
+    return mote_fail(status, "body %u%s", (i == MOTE_ENGINE_SAME ? number : i) + 1,
+                     text + length);
+}
+
 /* The box of given positions. */
 static mote_status box_positions(const mote_vec3 *at, uint32_t count, uint32_t body,
                                  mote_scene_box *box)
@@ -83,6 +95,7 @@ static mote_status bound_each(mote_engine *e)
         status = number == UINT32_MAX
                      ? box_positions(e->states[i].vertices, mesh->vertex_count, i, &e->boxes[i])
                      : mote_scene_bounds_of(e->scene, number, &e->states[i], &e->boxes[i]);
+        status = mote_engine_blame(status, i); /* the scene has other numbers */
     }
     return status;
 }
@@ -91,7 +104,9 @@ mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost)
 {
     const uint64_t from = mote_clock_ns();
     const mote_status status =
-        e->scene_body ? bound_each(e) : mote_scene_bounds(e->scene, e->states, e->boxes);
+        e->scene_body ? bound_each(e)
+                      : mote_engine_blame(mote_scene_bounds(e->scene, e->states, e->boxes),
+                                          MOTE_ENGINE_SAME);
     cost->bounds_ns = mote_clock_ns() - from;
     return status;
 }

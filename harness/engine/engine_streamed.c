@@ -71,8 +71,9 @@ static mote_status streamed_ask(mote_engine *e, mote_engine_cost *cost)
     for (uint32_t i = 0; i < e->setup.count; ++i)
         e->looked_at[i] = !e->looked_at[i]; /* from here on it means: unchanged */
     mote_pairs_wanted wanted = {0};
-    mote_status status =
-        mote_stream_scene_bounds(e->streamed, e->positions, e->looked_at, e->boxes);
+    mote_status status = mote_engine_blame(
+        mote_stream_scene_bounds(e->streamed, e->positions, e->looked_at, e->boxes),
+        MOTE_ENGINE_SAME);
     cost->bounds_ns = mote_clock_ns() - deformed;
     if (status == MOTE_OK)
         status = mote_engine_find_near(e, cost, &wanted);

@@ -49,7 +49,7 @@ static mote_status look_at(mote_engine *e, uint32_t i, mote_engine_cost *cost)
         return status;
     mote_deform_all(e->deform[e->setup.shape_of[i]], &e->states[i], vertices);
     const uint64_t deformed = mote_clock_ns();
-    status = e->trees_kind->move(e->trees, i);
+    status = mote_engine_blame(e->trees_kind->move(e->trees, i), i);
     *(given ? &cost->update_ns : &cost->deform_ns) += deformed - roomy;
     cost->update_ns += (roomy - from) + (mote_clock_ns() - deformed);
     return status;

@@ -22,7 +22,7 @@ mote_status mote_probe_all(mote_probe *probe, const mote_body_state *states,
 mote_status mote_probe_one(mote_probe *probe, const mote_body_state *states, uint32_t i,
                            mote_scene_box *boxes);
 
-/* Whether bodies i < j are too near, as they were when their boxes were last made; *distance is
+/* Whether bodies i < j, of which boxes have been made as they are, are too near; *distance is
    then at most the clearance and at least theirs. */
 mote_status mote_probe_pair(mote_probe *probe, const mote_body_state *states, uint32_t i,
                             uint32_t j, bool *too_near, double *distance);

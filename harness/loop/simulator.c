@@ -48,6 +48,14 @@ static mote_status weigh_shapes(mote_simulator *s, bool many)
     uint32_t most = 0;
     for (uint32_t k = 0; k < s->bodies.shape_count; ++k) {
         const mote_mesh *mesh = s->shapes[k]->mesh;
+        if (mesh->open_edge_count > 0)
+            return mote_fail(MOTE_EINVAL,
+                             "%s: %s %u cannot respond to a collision: its mesh is open (%u "
+                             "edges have one face), so that it has no volume and no mass; give "
+                             "a mesh without open edges, which `mote mesh FILE` counts, or "
+                             "measure the scenario with `mote run`",
+                             s->bodies.path, many ? "shape" : "body", k + 1,
+                             mesh->open_edge_count);
         const mote_status status = mote_mass_of_mesh(mesh, s->options.density, &s->masses[k]);
         if (status != MOTE_OK)
             return mote_fail(status, "%s: %s %u cannot respond to a collision: %s",
@@ -114,6 +122,9 @@ mote_status mote_simulator_create(const mote_subject *subject, const mote_method
                            "%s does not find impacts between the ends of steps; choose "
                            "certified, or sampled steps",
                            choice->text);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_stage_refuse_given(subject); /* a cloth, rather than: is open */
     if (status != MOTE_OK)
         return status;
     mote_simulator *made = new_simulator(subject, choice, options);

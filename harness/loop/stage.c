@@ -26,20 +26,30 @@ static mote_status open_engine(mote_stage *s, const mote_method_choice *choice, 
     return status == MOTE_OK ? mote_engine_build(*engine) : status;
 }
 
+mote_status mote_stage_refuse_given(const mote_subject *subject)
+{
+    const mote_engine_setup setup = mote_subject_engine(subject);
+    const char *path = subject->bodies ? subject->bodies->path : subject->scenario->path;
+    for (uint32_t k = 0; k < setup.shape_count; ++k) {
+        if (mote_body_is_given(setup.shapes[k]))
+            return mote_fail(
+                MOTE_EUNSUPPORTED,
+                "%s: a closed loop moves each body as its contacts tell and deforms it there "
+                "by a field, but of %s %u only positions are given, which are where it goes; "
+                "measure it with `mote run`",
+                path, subject->bodies ? "shape" : "body", k + 1);
+    }
+    return MOTE_OK;
+}
+
 mote_status mote_stage_create(const mote_subject *subject, const mote_method_choice *choice,
                               const mote_simulation_options *options, const mote_mass *masses,
                               mote_stage **stage)
 {
     mote_engine_setup setup = mote_subject_engine(subject);
-    for (uint32_t k = 0; k < setup.shape_count; ++k) {
-        if (mote_body_is_given(setup.shapes[k]))
-            return mote_fail(
-                MOTE_EUNSUPPORTED,
-                "a closed loop moves each body as its contacts tell and deforms it there by a "
-                "field, but of %s %u only positions are given, which are where it goes; "
-                "measure it with `mote run`",
-                subject->bodies ? "shape" : "body", subject->bodies ? k + 1 : k);
-    }
+    const mote_status given = mote_stage_refuse_given(subject);
+    if (given != MOTE_OK)
+        return given;
     setup.ask = MOTE_ASK_DISTANCE;
     setup.tolerance = options->tolerance * setup.length;
     if (setup.tolerance > setup.near)

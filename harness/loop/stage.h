@@ -14,8 +14,12 @@ typedef struct mote_stage_pairs {
 
 typedef struct mote_stage mote_stage;
 
-/* Everything is borrowed; masses are per shape. MOTE_EINVAL for a tolerance above the distance
-   at which bodies count as near. */
+/* MOTE_EUNSUPPORTED, naming the scenario and the body or shape, where only positions are given.
+ */
+mote_status mote_stage_refuse_given(const mote_subject *subject);
+
+/* Everything is borrowed; masses are per shape. MOTE_EUNSUPPORTED as above. MOTE_EINVAL for a
+   tolerance above the distance at which bodies count as near. */
 mote_status mote_stage_create(const mote_subject *subject, const mote_method_choice *choice,
                               const mote_simulation_options *options, const mote_mass *masses,
                               mote_stage **stage);

@@ -43,18 +43,22 @@ static const json_t *entry(const gltf *g, const char *list, int64_t index)
     return index < 0 ? NULL : json_array_get(json_object_get(g->root, list), (size_t)index);
 }
 
-/* The value of a member that is a whole number of at least 0, otherwise -1. */
+/* The value of a member that is a whole number of at least 0, 16.0 too, otherwise -1. */
 static int64_t whole(const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
-    const int64_t number = json_is_integer(value) ? json_integer_value(value) : -1;
-    return number < 0 ? -1 : number;
+    const double real = json_real_value(value);
+    if (json_is_integer(value))
+        return json_integer_value(value) < 0 ? -1 : json_integer_value(value);
+    return json_is_real(value) && real >= 0 && real <= 0x1p53 && real == floor(real)
+               ? (int64_t)real
+               : -1;
 }
 
-static int64_t offset_of(const json_t *object)
+/* The same of a member that may be left out: then 0. */
+static int64_t whole_or_none(const json_t *object, const char *key)
 {
-    const int64_t offset = whole(object, "byteOffset");
-    return offset < 0 ? 0 : offset;
+    return json_object_get(object, key) ? whole(object, key) : 0;
 }
 
 static int digit(char c)
@@ -118,13 +122,17 @@ static mote_status read_accessor(gltf *g, int64_t index, size_t width, numbers *
     const json_t *accessor = entry(g, "accessors", index);
     const json_t *view = entry(g, "bufferViews", whole(accessor, "bufferView"));
     const int64_t count = whole(accessor, "count");
-    const int64_t stride = whole(view, "byteStride");
+    const int64_t stride = whole_or_none(view, "byteStride");
+    const int64_t offset[2] = {whole_or_none(accessor, "byteOffset"),
+                               whole_or_none(view, "byteOffset")};
     const uint64_t size = width * sizeof(float);
     const uint64_t step = stride > 0 ? (uint64_t)stride : size;
-    const uint64_t begin = (uint64_t)offset_of(accessor) + (uint64_t)offset_of(view);
+    const uint64_t begin = (uint64_t)offset[0] + (uint64_t)offset[1];
     if (!view || count < 1 || whole(accessor, "componentType") != FLOATS ||
         json_object_get(accessor, "sparse"))
         return wrong(g, "that are no floats");
+    if (stride < 0 || offset[0] < 0 || offset[1] < 0)
+        return wrong(g, "whose byteOffset or byteStride is not a whole number");
     const mote_status status = load_buffer(g, whole(view, "buffer"));
     if (status != MOTE_OK)
         return status;

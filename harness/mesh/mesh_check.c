@@ -190,7 +190,9 @@ static mote_status check_ply(const char *path, const char *text, size_t size)
 {
     ply_header header = {0};
     const char *body = NULL;
-    const mote_status status = read_header(path, text, size, &header, &body);
+    mote_status status = read_header(path, text, size, &header, &body);
+    if (status == MOTE_OK && header.vertices == 0)
+        status = mote_fail(MOTE_EINVAL, "%s: declares no vertex; give a mesh", path);
     if (status != MOTE_OK)
         return status;
     return header.ascii ? check_ply_body(path, &header, body)
@@ -249,6 +251,22 @@ static mote_status check_stl(const char *path, const char *text, size_t size)
 {
     const bool is_text = strlen(text) == size && begins(mote_skip_mark(text), "solid");
     return is_text ? check_stl_text(path, text) : MOTE_OK;
+}
+
+mote_status mote_soup_refuse_empty(const char *path)
+{
+    return mote_fail(MOTE_EINVAL, "%s: an empty file, no face in it; give a mesh", path);
+}
+
+mote_status mote_soup_check_encoding(const char *path, const char *text, size_t size)
+{
+    if (size == 0)
+        return mote_soup_refuse_empty(path);
+    if (strncmp(text, "\xff\xfe", 2) == 0 || strncmp(text, "\xfe\xff", 2) == 0)
+        return mote_fail(MOTE_EINVAL, "%s: a text in UTF-16; save it as UTF-8", path);
+    if (strlen(text) != size)
+        return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
+    return MOTE_OK;
 }
 
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size)

@@ -36,12 +36,10 @@ static bool has_ending(const char *path, const char *ending)
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
                              mote_soup *soup)
 {
-    if (strncmp(text, "\xff\xfe", 2) == 0 || strncmp(text, "\xfe\xff", 2) == 0)
-        return mote_fail(MOTE_EINVAL, "%s: a text in UTF-16; save it as UTF-8", path);
-    if (strlen(text) != size)
-        return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
-    const mote_status status = is_off ? mote_soup_read_off(path, text, size, soup)
-                                      : mote_soup_read_obj(path, text, soup);
+    mote_status status = mote_soup_check_encoding(path, text, size);
+    if (status == MOTE_OK)
+        status = is_off ? mote_soup_read_off(path, text, size, soup)
+                        : mote_soup_read_obj(path, text, soup);
     if (status == MOTE_OK)
         mote_soup_compact(soup);
     return status;
@@ -65,7 +63,7 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     if (status != MOTE_OK)
         return status;
     if (size == 0)
-        status = mote_fail(MOTE_EINVAL, "%s: an empty file, no face in it; give a mesh", path);
+        status = mote_soup_refuse_empty(path);
     else if (is_read_by_us(path))
         status = read_text(path, text, size, is_off_file(path), soup);
     else

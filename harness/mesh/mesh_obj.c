@@ -15,6 +15,10 @@ static mote_status read_corner(mote_mesh_reader *reader, const char **at, uint32
                          "%s:%zu: a face corner that is not a vertex number; "
                          "write f 1 2 3",
                          reader->path, reader->line);
+    if (count == 0)
+        return mote_fail(MOTE_EINVAL,
+                         "%s:%zu: a face before any vertex; give the lines of v first",
+                         reader->path, reader->line);
     const long long index = number < 0 ? (long long)count + number : number - 1;
     if (number == 0 || index < 0 || index >= (long long)count)
         return mote_fail(MOTE_EINVAL,

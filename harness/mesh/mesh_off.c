@@ -78,6 +78,8 @@ static mote_status read_header(off_reader *reader)
         return fail_at(reader, "no counts; write the numbers of vertices, faces and edges");
     /* A vertex takes at least three digits and three blanks; a face a further digit. */
     mote_status status = read_count(reader, &at, "vertices", 6, &reader->vertices);
+    if (status == MOTE_OK && reader->vertices == 0)
+        status = fail_at(reader, "declares no vertex; give a mesh");
     return status == MOTE_OK ? read_count(reader, &at, "faces", 7, &reader->faces) : status;
 }
 

@@ -20,6 +20,7 @@
 #define AGREEMENT 1e-12 /* of L */
 
 #define COLUMNS "frame,first\n"
+#define UNDECIDED "undecided"
 
 /* What answers about one gap after the other. */
 typedef struct sources {
@@ -98,7 +99,7 @@ static double sample(sources *s)
     return (double)NAN;
 }
 
-/* The certified time of impact; NaN: none. */
+/* The certified time of impact; NaN: none. Infinite where that is left open. */
 static mote_status search_for_impact(sources *s, double *first)
 {
     const mote_impact_question question = {
@@ -107,7 +108,9 @@ static mote_status search_for_impact(sources *s, double *first)
         .tolerance = s->scenario->tolerance};
     mote_impact_found found;
     const mote_status status = mote_impact_query(s->search, &question, &found);
-    *first = status == MOTE_OK && found.outcome == MOTE_IMPACT_FOUND ? found.to : (double)NAN;
+    const bool is_found = status == MOTE_OK && found.outcome == MOTE_IMPACT_FOUND;
+    const bool is_none = status != MOTE_OK || found.outcome == MOTE_IMPACT_NONE;
+    *first = is_found ? found.to : is_none ? (double)NAN : HUGE_VAL;
     return status;
 }
 
@@ -136,11 +139,11 @@ static mote_status answer_gap(sources *s, uint32_t frame, double *first, uint32_
     const double sampled = sample(s);
     mote_status status = search_for_impact(s, &searched);
     /* A bracket is wider than what is bisected: a later time that follows from it is the same
-       impact. */
+       impact. What the search leaves open a sample in contact decides. */
     *first = searched < sampled || isnan(sampled) ? searched : sampled;
-    *unsampled += isnan(sampled) && !isnan(searched);
+    *unsampled += isnan(sampled) && searched <= 1;
     if (status == MOTE_OK)
-        status = check(s, frame, isnan(*first) ? 0.5 : *first, !isnan(*first));
+        status = check(s, frame, *first <= 1 ? *first : 0.5, *first <= 1);
     return status;
 }
 
@@ -202,7 +205,7 @@ static mote_status compute(const mote_scenario *scenario, uint64_t fingerprint,
     return status;
 }
 
-/* The first line of the file, but for the number at its end. */
+/* The first line of the file, but for the number of impacts at its end. */
 static char *first_part(const mote_scenario *scenario, uint64_t fingerprint)
 {
     return mote_format("# impacts of %s, fingerprint %016" PRIx64 ", faces %016" PRIx64
@@ -220,6 +223,8 @@ static mote_status write_file(const mote_scenario *scenario, const mote_impact_t
     for (uint32_t k = 0; k < truth->gaps; ++k) {
         if (isnan(truth->first[k]))
             mote_text_add(&text, "%u,\n", k + 1);
+        else if (isinf(truth->first[k]))
+            mote_text_add(&text, "%u,%s\n", k + 1, UNDECIDED);
         else
             mote_text_add(&text, "%u,%.17g\n", k + 1, truth->first[k]);
     }
@@ -230,7 +235,7 @@ static mote_status write_file(const mote_scenario *scenario, const mote_impact_t
     return status;
 }
 
-/* Reads "K,T\n" or "K,\n"; NULL if the text differs. */
+/* Reads "K,T\n", "K,\n" or "K,undecided\n"; NULL if the text differs. */
 static const char *read_gap(const char *at, uint32_t k, double *first)
 {
     char *end;
@@ -240,6 +245,10 @@ static const char *read_gap(const char *at, uint32_t k, double *first)
     *first = (double)NAN;
     if (*at == '\n')
         return at + 1;
+    if (strncmp(at, UNDECIDED "\n", strlen(UNDECIDED "\n")) == 0) {
+        *first = HUGE_VAL;
+        return at + strlen(UNDECIDED "\n");
+    }
     *first = strtod(at, &end);
     return end != at && *end == '\n' && *first >= 0 && *first <= 1 ? end + 1 : NULL;
 }
@@ -316,6 +325,8 @@ int mote_impact_truth_between(const mote_impact_truth *truth, uint32_t frame, ui
 {
     for (uint32_t k = 0; k < step && frame - 1 + k < truth->gaps; ++k) {
         const double first = truth->first[frame - 1 + k];
+        if (isinf(first))
+            return -1;
         if (!isnan(first)) {
             *to = (k + first) / step;
             return 1;

@@ -71,29 +71,46 @@ static bool sets_n(const char *text)
     return colon && (strncmp(colon, ":n=", 3) == 0 || strstr(colon, ",n=") != NULL);
 }
 
+/* Reads the first part of a list of numbers of particles; *list is then at the next part, or
+   NULL after the last. */
+static mote_status next_particles(const char **list, uint64_t *first, uint64_t *last)
+{
+    const size_t length = strcspn(*list, ",");
+    char *range = mote_format("%.*s", (int)length, *list);
+    mote_status status = mote_read_range(range, UINT32_MAX, first, last);
+    free(range);
+    if (status == MOTE_OK && *last - *first >= MOTE_CHOICES_MAX)
+        status = mote_fail(MOTE_EINVAL, "more than %d particle counts", MOTE_CHOICES_MAX);
+    *list = (*list)[length] ? *list + length + 1 : NULL;
+    return status == MOTE_OK
+               ? MOTE_OK
+               : mote_fail(status, "%s; particles are numbers and ranges: 1,2,4-8",
+                           mote_error_text());
+}
+
+mote_status mote_particles_check(const char *particles)
+{
+    uint64_t first, last;
+    mote_status status = MOTE_OK;
+    while (particles && status == MOTE_OK)
+        status = next_particles(&particles, &first, &last);
+    return status;
+}
+
 static mote_status add_with_particles(mote_choices *choices, const char *text,
                                       const char *particles)
 {
-    for (const char *part = particles;; ++part) {
-        size_t length = strcspn(part, ",");
-        char *range = mote_format("%.*s", (int)length, part);
-        uint64_t first = 0, last = 0;
-        mote_status status = mote_read_range(range, UINT32_MAX, &first, &last);
-        free(range);
-        if (status == MOTE_OK && last - first >= MOTE_CHOICES_MAX)
-            status = mote_fail(MOTE_EINVAL, "more than %d particle counts", MOTE_CHOICES_MAX);
+    mote_status status = MOTE_OK;
+    while (particles && status == MOTE_OK) {
+        uint64_t first = 1, last = 0;
+        status = next_particles(&particles, &first, &last);
         for (uint64_t n = first; status == MOTE_OK && n <= last; ++n) {
             char *full = mote_format("%s%cn=%" PRIu64, text, strchr(text, ':') ? ',' : ':', n);
             status = add_one(choices, full);
             free(full);
         }
-        if (status != MOTE_OK)
-            return mote_fail(status, "%s; particles are numbers and ranges: 1,2,4-8",
-                             mote_error_text());
-        part += length;
-        if (*part == '\0')
-            return MOTE_OK;
     }
+    return status;
 }
 
 mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles)

@@ -19,6 +19,10 @@ typedef struct mote_choices {
    Configurations already in the list are not added again. MOTE_EINVAL with a text for an
    unknown method or key, a bad value, a bad list. */
 mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles);
+
+/* Checks a list of numbers of particles, or NULL, whether or not a method takes it. MOTE_EINVAL
+   with the text. */
+mote_status mote_particles_check(const char *particles);
 void mote_choices_free(mote_choices *choices);
 
 #define MOTE_REPLICATES_MAX 1000

@@ -54,13 +54,14 @@ static mote_status judge_pair(const mote_bodies *bodies, uint32_t frame,
         return mote_fail(MOTE_ENUMERIC,
                          "%s: frame %u: bodies %u and %u are %.17g apart, not %.17g: brute "
                          "force",
-                         bodies->path, frame, a, b, distance, said->distance);
+                         bodies->path, frame, a + 1, b + 1, distance, said->distance);
     if (said->has_contact && said->contact != (distance <= bodies->tolerance) &&
         !(fabs(distance - bodies->tolerance) <= agreement))
         return mote_fail(MOTE_ENUMERIC,
                          "%s: frame %u: bodies %u and %u are %.17g apart, which is %scontact: "
                          "brute force",
-                         bodies->path, frame, a, b, distance, said->contact ? "no " : "");
+                         bodies->path, frame, a + 1, b + 1, distance,
+                         said->contact ? "no " : "");
     return MOTE_OK;
 }
 
@@ -126,7 +127,7 @@ static mote_status judge_neighbours(const mote_bodies *bodies, uint32_t frame,
             return mote_fail(MOTE_ENUMERIC,
                              "%s: frame %u: bodies %u and %u are %.17g apart and not among the "
                              "near pairs, which are those up to %.17g: brute force",
-                             bodies->path, frame, own, other, distance, bodies->near);
+                             bodies->path, frame, own + 1, other + 1, distance, bodies->near);
     }
     return MOTE_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "baselines/broad_phase.h"
 #include "core/base/random.h"
+#include "harness/engine/box_grid.h"
 #include "harness/engine/probe.h"
 
 #include <stdlib.h>
@@ -29,6 +30,7 @@ typedef struct placing {
     mote_broad_phase *broad;
     mote_bodies_frame frame;
     mote_scene_box *boxes; /* [count] */
+    mote_box_grid *placed; /* the bodies whose places are settled */
 } placing;
 
 static void draw_path(placing *p, uint32_t i)
@@ -149,27 +151,20 @@ static mote_status find_box(placing *p)
     return status;
 }
 
-static bool boxes_near(const mote_scene_box *a, const mote_scene_box *b, double near)
-{
-    return a->low.x - b->high.x <= near && b->low.x - a->high.x <= near &&
-           a->low.y - b->high.y <= near && b->low.y - a->high.y <= near &&
-           a->low.z - b->high.z <= near && b->low.z - a->high.z <= near;
-}
-
 /* The first body below i that is too close to body i; i: none. */
 static mote_status find_overlap(placing *p, uint32_t i, uint32_t *other, double *distance)
 {
     const double clearance = CLEARANCE * p->bodies->length;
-    for (uint32_t j = 0; j < i; ++j) {
-        if (!boxes_near(&p->boxes[i], &p->boxes[j], clearance))
-            continue;
+    size_t count;
+    const uint32_t *near = mote_box_grid_near(p->placed, &p->boxes[i], clearance, &count);
+    for (size_t k = 0; k < count; ++k) {
         bool too_near;
         mote_status status =
-            mote_probe_pair(p->probe, p->frame.states, j, i, &too_near, distance);
+            mote_probe_pair(p->probe, p->frame.states, near[k], i, &too_near, distance);
         if (status != MOTE_OK)
             return status;
         if (too_near) {
-            *other = j;
+            *other = near[k];
             return MOTE_OK;
         }
     }
@@ -214,6 +209,8 @@ static mote_status separate(placing *p)
             place_body(p, i);
             status = set_body(p, i);
         }
+        if (status == MOTE_OK)
+            mote_box_grid_add(p->placed, i);
     }
     return status;
 }
@@ -249,6 +246,7 @@ static mote_status prepare(placing *p)
         setup.shapes[s] = &b->shapes[s].body;
     p->fractions = mote_allocate(b->count, sizeof *p->fractions);
     p->boxes = mote_allocate(b->count, sizeof *p->boxes);
+    p->placed = mote_box_grid_create(p->boxes, b->count);
     p->frame = mote_bodies_frame_create(b);
     mote_status status = mote_probe_create(&setup, CLEARANCE * b->length, &p->probe);
     if (status == MOTE_OK)
@@ -277,6 +275,7 @@ mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish)
     mote_bodies_frame_free(&p.frame);
     mote_broad_phase_destroy(p.broad);
     mote_probe_destroy(p.probe);
+    mote_box_grid_destroy(p.placed);
     free(p.fractions);
     free(p.boxes);
     return status;

@@ -43,8 +43,10 @@ static const char *read_row(const char *line, uint32_t frame, uint32_t body,
     return *end == '\n' ? end + 1 : NULL;
 }
 
+/* Makes room for the rows as they come: a scenario may ask for more than its file has. */
 static mote_status read_rows(const char *path, const char *text, mote_bodies *bodies)
 {
+    size_t capacity = 0;
     const size_t head = strlen(HEAD);
     const char *line = strncmp(text, HEAD, head) == 0 ? text + head : NULL;
     if (!line)
@@ -61,6 +63,8 @@ static mote_status read_rows(const char *path, const char *text, mote_bodies *bo
                              "%s:%zu: not a pose; expected frame %u, body %u, a deformation, a "
                              "place and a quaternion",
                              path, r + 2, frame, body);
+        bodies->recorded =
+            mote_reserve(bodies->recorded, r + 1, &capacity, sizeof *bodies->recorded);
         bodies->recorded[r] = (mote_bodies_record){
             .middle = mote_scale(mote_vec3_make(n[1], n[2], n[3]), bodies->length),
             .turn = mote_quaternion_normalise((mote_quaternion){n[4], n[5], n[6], n[7]}),
@@ -98,8 +102,6 @@ mote_status mote_bodies_poses_read(const char *path, mote_bodies *bodies)
     mote_status status = mote_file_read(path, SIZE_LIMIT, &text, &size);
     if (status != MOTE_OK)
         return status;
-    bodies->recorded =
-        mote_allocate((size_t)bodies->frames * bodies->count, sizeof *bodies->recorded);
     status = read_rows(path, text, bodies);
     for (uint32_t i = 0; i < bodies->count && status == MOTE_OK; ++i)
         set_path(bodies, i);

@@ -34,7 +34,7 @@ static mote_status read_body(const mote_json *node, uint32_t frames, mote_bodies
 
 static mote_status read_shape(const mote_json *node, uint32_t frames, mote_bodies_shape *shape)
 {
-    mote_status status = mote_json_object(
+    mote_status status = mote_scenario_check_body(
         node, "letter|triangles|file|positions|scale|field|" MOTE_CHARACTER_KEYS);
     if (status == MOTE_OK)
         status = read_body(node, frames, shape);
@@ -115,11 +115,7 @@ static mote_status read_box(const mote_json *node, mote_bodies_wish *wish)
                               box.value ? "both" : "neither");
     if (pairs.value)
         return mote_json_real(&pairs, 1e-6, 1e6, &wish->near_pairs);
-    if (!json_is_number(box.value))
-        return mote_json_vec3(&box, 1e-6, FAR, &wish->box);
-    mote_status status = mote_json_real(&box, 1e-6, FAR, &wish->box.x);
-    wish->box.y = wish->box.z = wish->box.x;
-    return status;
+    return mote_json_number_or_vec3(&box, 1e-6, FAR, &wish->box);
 }
 
 static mote_status read_optional(const mote_json *node, const char *name, double maximum,

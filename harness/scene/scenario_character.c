@@ -2,6 +2,7 @@
 #include "harness/scene/scenario_read.h"
 
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +14,15 @@
 
 static const char *const own_keys[] = {"clip", "start", "speed", "loop", "subdivide"};
 
-static mote_status check_keys(const mote_json *body)
+mote_status mote_scenario_check_body(const mote_json *body, const char *known)
 {
     static const char *const others[] = {"letter", "triangles", "file", "field"};
     const bool is_character = mote_json_member(body, "character").value != NULL;
+    const mote_json triangles = mote_json_member(body, "triangles");
+    int64_t count;
+    mote_status status = mote_json_object(body, known);
+    if (status != MOTE_OK)
+        return status;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
         const mote_json key = mote_json_member(body, others[i]);
         if (is_character && key.value)
@@ -31,7 +37,7 @@ static mote_status check_keys(const mote_json *body)
             return mote_json_fail(&key, "%s without a character; add \"character\": FILE",
                                   own_keys[i]);
     }
-    return MOTE_OK;
+    return triangles.value ? mote_scenario_read_triangles(body, &count) : MOTE_OK;
 }
 
 static mote_status import(const mote_json *node, mote_character **character)
@@ -53,9 +59,9 @@ mote_status mote_scenario_read_character(const mote_json *body, mote_character *
     mote_json key = mote_json_member(body, "subdivide");
     int64_t times = 0;
     *character = NULL;
-    mote_status status = check_keys(body);
-    if (status != MOTE_OK || !node.value)
-        return status;
+    mote_status status = MOTE_OK;
+    if (!node.value)
+        return MOTE_OK;
     if (key.value)
         status = mote_json_integer(&key, 0, SUBDIVIDE_MAX, &times);
     if (status == MOTE_OK)
@@ -72,22 +78,29 @@ void mote_scenario_set_samples(mote_player *player, double first, double last, m
     body->sample_count = MOTE_PLAYER_SAMPLES;
 }
 
-/* "clip": a name, or a number from 1; the default is the first clip. */
+/* "clip": a name, or a number from 1; the default is the first clip. The caller frees *name. */
+static mote_status clip_name(const mote_json *key, char **name)
+{
+    int64_t number = 1;
+    const char *text = NULL;
+    mote_status status = MOTE_OK;
+    if (json_is_number(key->value))
+        status = mote_json_integer(key, 1, UINT32_MAX, &number);
+    else if (json_is_string(key->value))
+        status = mote_json_string(key, &text);
+    else if (key->value)
+        status = mote_json_refuse(key, "the name of a clip, or its number");
+    if (status == MOTE_OK)
+        *name = text ? mote_duplicate(text) : mote_format("%lld", (long long)number);
+    return status;
+}
+
 static mote_status read_clip(const mote_json *body, mote_player *player)
 {
     const mote_json key = mote_json_member(body, "clip");
     const mote_json at = key.value ? key : mote_json_member(body, "character");
     char *name = NULL;
-    mote_status status = MOTE_OK;
-    if (json_is_number(key.value)) {
-        name = mote_format("%.17g", json_number_value(key.value));
-    } else if (key.value) {
-        const char *text;
-        status = mote_json_string(&key, &text);
-        name = mote_format("%s", status == MOTE_OK ? text : "");
-    } else {
-        name = mote_format("1");
-    }
+    mote_status status = clip_name(&key, &name);
     if (status == MOTE_OK)
         status = mote_json_blame(
             &at, mote_character_find_clip(player->character, name, &player->clip));
@@ -105,12 +118,8 @@ static mote_status read_play(const mote_json *body, mote_player *player)
     if (status == MOTE_OK && key.value)
         status = mote_json_real(&key, -1e3, 1e3, &player->speed);
     key = mote_json_member(body, "loop");
-    if (status == MOTE_OK && key.value) {
-        const json_type type = json_typeof(key.value);
-        player->loop = type == JSON_TRUE;
-        if (type != JSON_TRUE && type != JSON_FALSE)
-            status = mote_json_fail(&key, "not true or false");
-    }
+    if (status == MOTE_OK && key.value)
+        status = mote_json_boolean(&key, &player->loop);
     return status;
 }
 

@@ -6,6 +6,8 @@
 #include "harness/base/memory.h"
 #include "harness/scene/spread.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -184,21 +186,49 @@ static mote_status unknown_kind(const mote_json *node, const char *name)
     return status;
 }
 
-/* Collects the parameters of a field's kind as "key=value,...". */
-static void parameter_text(const mote_json *node, mote_text *text)
+/* Whether a string is what a parameter takes instead of a number. */
+static bool is_word_of(const mote_parameter *p, const char *word)
 {
-    const char *key;
-    json_t *value;
-    json_object_foreach(node->value, key, value)
-    {
-        if (strcmp(key, "kind") == 0 || strcmp(key, "displacement") == 0)
-            continue;
-        mote_text_add(text, "%s%s=", text->size ? "," : "", key);
-        if (json_is_string(value))
-            mote_text_add(text, "%s", json_string_value(value));
+    return p->kind == MOTE_PARAMETER_CHOICE || (p->choices && strcmp(word, "auto") == 0) ||
+           (isinf(p->maximum) && strcmp(word, "inf") == 0);
+}
+
+/* A parameter of a field's kind: a number or, where it takes one, a word. */
+static mote_status read_parameter(const mote_json *node, const mote_parameter *p, double *value)
+{
+    const char *word = json_string_value(node->value);
+    if (word ? !is_word_of(p, word) || strchr(word, ',') : !json_is_number(node->value)) {
+        char right[300];
+        if (p->kind == MOTE_PARAMETER_CHOICE)
+            (void)snprintf(right, sizeof right, "one of %s", p->choices);
         else
-            mote_text_add(text, "%.17g", json_number_value(value));
+            (void)snprintf(right, sizeof right, "a number from %.15g to %.15g%s", p->minimum,
+                           p->maximum, p->choices ? ", or \"auto\"" : "");
+        return mote_json_refuse(node, right);
     }
+    char *text = word ? mote_format("%s=%s", p->key, word)
+                      : mote_format("%s=%.17g", p->key, json_number_value(node->value));
+    const mote_status status = mote_parameters_parse(p, 1, text, value);
+    free(text);
+    return status == MOTE_EINVAL ? mote_json_fail(node, "%s", mote_error_text()) : status;
+}
+
+static mote_status read_parameters(const mote_json *node, const mote_field_maker *maker,
+                                   double *values)
+{
+    mote_text known = {0};
+    mote_text_add(&known, "kind|displacement");
+    for (size_t i = 0; i < maker->parameter_count; ++i)
+        mote_text_add(&known, "|%s", maker->parameters[i].key);
+    mote_status status = mote_json_object(node, known.data);
+    free(known.data);
+    mote_parameters_default(maker->parameters, maker->parameter_count, values);
+    for (size_t i = 0; i < maker->parameter_count && status == MOTE_OK; ++i) {
+        const mote_json key = mote_json_member(node, maker->parameters[i].key);
+        if (key.value)
+            status = read_parameter(&key, &maker->parameters[i], &values[i]);
+    }
+    return status;
 }
 
 /* Makes a field of a kind that field_maker.h knows. */
@@ -213,15 +243,9 @@ static mote_status read_made(const mote_json *node, const mote_json *kind,
     if (!maker)
         return unknown_kind(kind, name);
     double values[MOTE_PARAMETERS_MAX];
-    mote_text text = {0};
-    parameter_text(node, &text);
-    mote_parameters_default(maker->parameters, maker->parameter_count, values);
-    status = mote_parameters_parse(maker->parameters, maker->parameter_count,
-                                   text.data ? text.data : "", values);
-    free(text.data);
-    if (status == MOTE_OK)
-        status = maker->create(mesh, values, field);
-    return status == MOTE_EINVAL ? mote_json_fail(node, "%s", mote_error_text()) : status;
+    status = read_parameters(node, maker, values);
+    return status == MOTE_OK ? mote_json_blame(node, maker->create(mesh, values, field))
+                             : status;
 }
 
 static mote_status read_csrbf(const mote_json *node, const mote_mesh *mesh, mote_field **field,

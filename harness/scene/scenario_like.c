@@ -33,8 +33,7 @@ static json_t *merge(const json_t *base, const json_t *over, bool element_wise)
 {
     if (json_typeof(over) == JSON_OBJECT)
         return merge_objects(base, over);
-    if (!element_wise || json_typeof(over) != JSON_ARRAY ||
-        json_array_size(base) != json_array_size(over))
+    if (!element_wise || json_typeof(over) != JSON_ARRAY)
         return json_deep_copy(over);
     json_t *result = json_array();
     for (size_t i = 0; i < json_array_size(over); ++i)
@@ -106,7 +105,11 @@ mote_status mote_scenario_merge_like(mote_json_file *file)
     status = open_base(file, name, &base);
     if (status != MOTE_OK)
         return mote_json_blame(&like, status);
-    if (json_object_get(base.root, "like")) {
+    const mote_json other = mote_json_root(&base);
+    if (!json_is_object(base.root)) {
+        status =
+            mote_json_blame(&like, mote_json_refuse(&other, "an object, which a scenario is"));
+    } else if (json_object_get(base.root, "like")) {
         status =
             mote_json_fail(&like, "%s is like another one itself; name one that is not", name);
     } else {

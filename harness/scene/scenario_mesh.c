@@ -10,6 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SCALE_MIN 1e-15
+#define SCALE_MAX 1e15
+
+mote_status mote_scenario_read_triangles(const mote_json *body, int64_t *triangles)
+{
+    const mote_json key = mote_json_member(body, "triangles");
+    return mote_json_integer(&key, MOTE_LETTER_MIN_TRIANGLES, MOTE_LETTER_MAX_TRIANGLES,
+                             triangles);
+}
+
 static mote_status read_letter(const mote_json *letter, const mote_json *body, mote_mesh **mesh)
 {
     const char *name;
@@ -17,9 +27,8 @@ static mote_status read_letter(const mote_json *letter, const mote_json *body, m
     mote_status status = mote_json_string(letter, &name);
     if (status == MOTE_OK && name[1] != '\0')
         status = mote_json_fail(letter, "%s is not one letter; give one capital", name);
-    mote_json key = mote_json_member(body, "triangles");
     if (status == MOTE_OK)
-        status = mote_json_integer(&key, 1, 100000000, &triangles);
+        status = mote_scenario_read_triangles(body, &triangles);
     if (status != MOTE_OK)
         return status;
     status = mote_letter_create(name[0], (size_t)triangles, mesh);
@@ -55,15 +64,6 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
     return mote_json_blame(file, status);
 }
 
-static mote_status read_scale(const mote_json *scale, mote_vec3 *factor)
-{
-    if (!json_is_number(scale->value))
-        return mote_json_vec3(scale, 1e-15, 1e15, factor);
-    const mote_status status = mote_json_real(scale, 1e-15, 1e15, &factor->x);
-    factor->y = factor->z = factor->x;
-    return status;
-}
-
 /* Replaces *mesh with a copy scaled by coordinate. */
 static mote_status scale_mesh(mote_vec3 factor, mote_mesh **mesh)
 {
@@ -87,7 +87,7 @@ static mote_status scale_mesh(mote_vec3 factor, mote_mesh **mesh)
 
 mote_status mote_scenario_scale(const mote_json *scale, mote_mesh **mesh, mote_vec3 *factor)
 {
-    const mote_status status = read_scale(scale, factor);
+    const mote_status status = mote_json_number_or_vec3(scale, SCALE_MIN, SCALE_MAX, factor);
     return status == MOTE_OK ? mote_json_blame(scale, scale_mesh(*factor, mesh)) : status;
 }
 
@@ -112,7 +112,7 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh,
     if (status == MOTE_OK && !moving)
         status = mote_scenario_read_plain(body, &made);
     if (status == MOTE_OK && scale.value)
-        status = read_scale(&scale, &factor);
+        status = mote_json_number_or_vec3(&scale, SCALE_MIN, SCALE_MAX, &factor);
     if (status == MOTE_OK && scale.value)
         status = mote_json_blame(&scale, moving ? mote_character_scale(moving, factor)
                                                 : scale_mesh(factor, &made));

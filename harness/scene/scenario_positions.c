@@ -25,6 +25,8 @@ static mote_status open_cache(const mote_json *body, const char *path, uint32_t 
                    ? mote_sequence_open_cache(path, NULL, last, sequence, mesh, import)
                    : status;
     }
+    if (mote_json_member(body, "letter").value)
+        return mote_json_fail(body, "a letter and a file; give one of them with the cache");
     char *beside = NULL;
     mote_status status = mote_scenario_file_path(&file, &beside);
     if (status == MOTE_OK)

@@ -203,8 +203,9 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     mote_status status = mote_json_array(&bodies, 2, 2, &size);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         body[i] = mote_json_element(&bodies, i);
-        status = mote_json_object(&body[i], "letter|triangles|file|positions|scale|field|"
-                                            "motion|velocity|spin|" MOTE_CHARACTER_KEYS);
+        status =
+            mote_scenario_check_body(&body[i], "letter|triangles|file|positions|scale|field|"
+                                               "motion|velocity|spin|" MOTE_CHARACTER_KEYS);
     }
     if (status == MOTE_OK)
         status = read_meshes(body, scenario, characters);

@@ -54,6 +54,14 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh,
 /* The keys for a character. */
 #define MOTE_CHARACTER_KEYS "character|clip|start|speed|loop|subdivide"
 
+/* Checks that a body is an object with keys from known, and that what it says beside letter,
+   file, character or positions goes with that. To be called before anything of it is read. */
+mote_status mote_scenario_check_body(const mote_json *body, const char *known);
+
+/* Reads "triangles" of a letter, which must be there; a body with a mesh of its own ignores it,
+   since it may come from the scenario that this one is like. */
+mote_status mote_scenario_read_triangles(const mote_json *body, int64_t *triangles);
+
 /* Reads "character" and "subdivide"; *character is NULL without "character". */
 mote_status mote_scenario_read_character(const mote_json *body, mote_character **character);
 

@@ -345,6 +345,8 @@ static mote_status check_header(const ply *p)
     }
     if (coordinates != 3 || known != (1u << X | 1u << Y | 1u << Z))
         return fail(p, "no vertex element with x, y and z once each; add it");
+    if (p->vertices == 0)
+        return fail(p, "declares no vertex; give a mesh");
     if (early)
         return fail(p, "faces before the vertices; give the vertex element first");
     return corners ? MOTE_OK : fail(p, "no face element with vertex_indices; add it");

@@ -2,6 +2,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/import_child.h"
 #include "harness/sequence/frame_file.h"
 #include "harness/process/child.h"
 
@@ -36,11 +37,10 @@ static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file 
         return status;
     if (is_ply(path)) {
         status = mote_frame_file_read_ply(path, data, size, file, soup);
-    } else if (strlen(data) != size) {
-        status =
-            mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(data));
     } else {
-        status = mote_soup_read_obj(path, data, soup);
+        status = mote_soup_check_encoding(path, data, size);
+        if (status == MOTE_OK)
+            status = mote_soup_read_obj(path, data, soup);
         if (status == MOTE_OK)
             status = mote_frame_file_read_obj(path, data, file);
     }
@@ -121,6 +121,8 @@ static mote_status make(const char *path, const char *data, size_t size,
     if (!is_whole(&head, NULL, size))
         return mote_fail(MOTE_EIO, "%s: reading it ended early", path);
     head.import.split.where[MOTE_SPLIT_TEXT - 1] = '\0';
+    if (mote_import_is_strict() && mote_import_refuse_split(path, &head.import) != MOTE_OK)
+        return MOTE_EINVAL;
     double *xyz = mote_copy(data, 3 * head.vertex_count * sizeof *xyz);
     data += 3 * head.vertex_count * sizeof *xyz;
     uint32_t *indices = mote_copy(data, 3 * head.triangle_count * sizeof *indices);

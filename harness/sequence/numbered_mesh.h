@@ -16,7 +16,8 @@ typedef struct mote_numbered_mesh {
 
 /* Reads an OBJ or a PLY file (ASCII, or binary of either byte order, single or double
    precision, kept as it is) in a child process with limits, like mote_mesh_import. Vertices
-   that are in no face are left out; edges of more than two faces are cut apart. MOTE_EINVAL and
+   that are in no face are left out; edges of more than two faces are cut apart, or refused
+   (mote_mesh_import_strictly). MOTE_EINVAL and
    MOTE_EIO with the file and the place. Free with mote_numbered_mesh_free. */
 mote_status mote_numbered_mesh_read(const char *path, mote_numbered_mesh *made);
 void mote_numbered_mesh_free(mote_numbered_mesh *made);

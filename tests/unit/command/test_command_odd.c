@@ -70,19 +70,20 @@ static const command_line bad_lines[] = {
     {"sequence --triangles 800 --out x", 2, "something is missing"},
     {"sequence cloth cloth", 2, "cloth: one sequence at a time"},
     {"sequence silk", 2, "silk: not one of cloth"},
-    {"sequence cloth --triangles many", 2, "--triangles many: give a whole number"},
-    {"sequence cloth --frames 0", 2, "--frames 0: give 1 to 100000"},
-    {"sequence cloth --frames 100001", 2, "--frames 100001: give 1 to 100000"},
+    {"sequence cloth --triangles many", 2,
+     "--triangles many: give a whole number from 800 to 20000000"},
+    {"sequence cloth --frames 0", 2, "--frames 0: give a whole number from 1 to 100000"},
+    {"sequence cloth --frames 100001", 2, "--frames 100001: give a whole number from 1"},
     {"sequence cloth --speed 3", 2, "unknown option --speed"},
-    {"sequence cloth --triangles 5 --out x", 4, "5 triangles is out of range"},
+    {"sequence cloth --triangles 5 --out x", 2, "--triangles 5: give a whole number from 800"},
     {"sequence cloth --triangles 800 --out d.obj", 4, "d.obj"},
-    {"letter W --triangles 0 -o W.obj", 2, "something is missing"},
+    {"letter W --triangles 0 -o W.obj", 2, "--triangles 0: give an even number"},
     {"letter W --triangles 400 -o round", 4, "round: cannot be written: Too many levels"},
-    {"simulate s.json --method certified --jobs 0", 2, "give a number from 1 to 256"},
+    {"simulate s.json --method certified --jobs 0", 2, "give a whole number from 1 to 256"},
     {"simulate s.json --method certified --jobs 2", 2, "name a directory with --out"},
     {"simulate s.json --method certified --out k --film x.gif", 2, "leave out --out"},
     {"simulate s.json --method certified --out k --seed 9223372036854775807", 2,
-     "a number of at most 62 bits"},
+     "with --out a whole number below 2^62"},
     {"simulate s.json nothing.json --method certified --out k --steps 2", 4, "nothing.json"},
     {"mesh $(printf '\\377.obj') --json", 4, "not UTF-8, which JSON needs; rename it"},
     {"check $(printf '\\377.json') --json", 4, "a name to be printed is not UTF-8"},
@@ -96,7 +97,7 @@ static const command_line bad_lines[] = {
     {"race /bin/true /bin/true s.json --method certified --until ''", 2, "--until : expected"},
     {"race /bin/true /bin/true s.json --method certified --until "
      "0.000000000000000000000000000000000001",
-     2, "expected a share such as 1%"},
+     2, "expected a share above 0, at most 100%, such as 1%"},
     {"race /bin/true /bin/true s.json --method certified --until 0.5 --real 2", 2, "--real 2"},
     {"dynamics --step 0 --out k", 2, "--step 0: give a whole number from 1 to 1000"},
     {"dynamics --jobs 65 --out k", 2, "--jobs 65: give a whole number from 1 to 64"},
@@ -109,6 +110,51 @@ static const command_line bad_lines[] = {
 TEST(commands_with_odd_values_say_so_in_one_line_and_leave_nothing)
 {
     command_refuses(bad_lines, ROWS_OF(bad_lines));
+}
+
+/* Numbers that do not fit their type, or that nothing could take, are errors of the command
+   line: exit 2 with the option, whatever the files are. */
+TEST(commands_refuse_numbers_that_do_not_fit_by_their_option)
+{
+    static const struct {
+        const char *line;
+        const char *options[12];
+    } rows[] = {
+        {"letter W -o W.obj", {"triangles"}},
+        {"sequence cloth --out x", {"triangles", "frames"}},
+        {"export s.json --out x", {"frame"}},
+        {"approach s.json -o x.json", {"gaps", "every"}},
+        {"run s.json --dry-run --method fcl-aabb --out x",
+         {"particles", "replicates", "frames", "seed", "timeout", "stride", "step", "jobs",
+          "until-ci", "budget", "progress", "shard"}},
+        {"simulate s.json --method certified --out x",
+         {"steps", "seed", "density", "restitution", "tolerance", "time-step", "step",
+          "replicates", "jobs", "until-ci", "budget", "shard"}},
+        {"dynamics --out x", {"jobs", "approaches", "step"}},
+        {"compare x y", {"floor"}},
+        {"race /bin/true /bin/true s.json --method fcl-aabb",
+         {"particles", "frames", "until", "budget", "real", "timeout", "seed"}},
+        {"instructions s.json --inside --method certified --frames 1-2",
+         {"particles", "frames"}},
+    };
+    static const char *const values[] = {
+        "99999999999999999999", "-1", "1e400", "nan", "''", "x"};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        for (size_t k = 0; k < 12 && rows[i].options[k]; ++k) {
+            for (size_t v = 0; v < ROWS_OF(values); ++v) {
+                /* a density of 1e20 is one */
+                if (v == 0 && strcmp(rows[i].options[k], "density") == 0)
+                    continue;
+                char *says = mote_format("--%s ", rows[i].options[k]);
+                mote_expect(2, says, "%s --%s %s", rows[i].line, rows[i].options[k], values[v]);
+                free(says);
+            }
+        }
+    }
+    mote_expect(0, "plan: ",
+                "run s.json --dry-run --method fcl-aabb --out x --frames 2 --seed 0 "
+                "--timeout 1e9 --stride 4294967295 --particles 4294967295");
+    mote_expect(4, "outside s", "run s.json --method fcl-aabb --out x --frames 9999");
 }
 
 /* The mesh is written before the cache, which then cannot get its name; no part of it is left.

@@ -224,8 +224,9 @@ TEST(command_simulate_step_tells_what_it_did_and_what_does_not_fit)
                 "simulate s.json --method certified --step 60 --sampled");
     mote_expect(2, "--time-step", "simulate s.json --method certified --step 9 --time-step 2");
     mote_expect(2, "--step K", "simulate s.json --method certified --sampled");
-    mote_expect(2, "give a number", "simulate s.json --method certified --step many");
-    mote_expect(4, "time step", "simulate s.json --method certified --step 0");
-    mote_expect(4, "time step", "simulate s.json --method certified --step 1001");
+    mote_expect(2, "give frames", "simulate s.json --method certified --step many");
+    mote_expect(2, "above 0 and at most 1000", "simulate s.json --method certified --step 0");
+    mote_expect(2, "above 0 and at most 1000",
+                "simulate s.json --method certified --step 1001");
     mote_expect(4, "choose certified", "simulate s.json --method aabb-tree --step 3");
 }

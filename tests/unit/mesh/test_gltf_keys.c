@@ -125,7 +125,7 @@ TEST(gltf_keys_change_the_tracks_that_their_channels_name)
          "\"accessors\"",
          "],\"more\":[],\"accessors\"", "p0c"},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":12}", "p0c"},
-        {VIEW, "{\"buffer\":0,\"byteOffset\":-8}", "p0c"},
+        {VIEW, "{\"buffer\":0,\"byteOffset\":8.0,\"byteStride\":12.0}", "p0c"},
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
         mote_rig rig;
@@ -215,7 +215,9 @@ TEST(gltf_keys_that_cannot_be_read_are_refused)
     static const char floats[] = "k.gltf: cubic keys that are no floats; give floats in a",
                       beyond[] = "k.gltf: cubic keys beyond the end of their buffer",
                       three[] = "k.gltf: cubic keys that are not three for each time",
-                      folder[] = "k.gltf: cubic keys in a file of another folder";
+                      folder[] = "k.gltf: cubic keys in a file of another folder",
+                      offset[] = "k.gltf: cubic keys whose byteOffset or byteStride is not a "
+                                 "whole number";
     static const struct {
         const char *from, *to, *says;
         mote_status status;
@@ -235,6 +237,12 @@ TEST(gltf_keys_that_cannot_be_read_are_refused)
         {URI, "\"uri\":\"data:,AAAA\"", "data:,AAAA: ", MOTE_EIO},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":4100}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":24}", beyond, MOTE_EINVAL},
+        {VIEW, "{\"buffer\":0,\"byteOffset\":-8}", offset, MOTE_EINVAL},
+        {VIEW, "{\"buffer\":0,\"byteOffset\":\"8\"}", offset, MOTE_EINVAL},
+        {VIEW, "{\"buffer\":0,\"byteOffset\":8.5}", offset, MOTE_EINVAL},
+        {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":null}", offset, MOTE_EINVAL},
+        {KEYS, "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"byteOffset\":true}",
+         offset, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":96}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":105}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":9223372036854775807}", beyond, MOTE_EINVAL},

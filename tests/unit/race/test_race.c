@@ -266,7 +266,7 @@ TEST(command_lines_that_are_wrong)
         {"race /bin/true /bin/true ww --method certified --format xml", 2, "--format xml"},
         {"race /bin/true /bin/true ww --method certified --labels one", 2, "--labels one"},
         {"race /bin/true /bin/true ww --method nothing", 4, "unknown method nothing"},
-        {"race /bin/true /bin/true ww --method certified --frames 9-1", 4, "9-1"},
+        {"race /bin/true /bin/true ww --method certified --frames 9-1", 2, "9-1"},
         {"race /nowhere /bin/true ww --method certified", 4, "/nowhere: No such file"},
         {"race . . ww --method certified", 4, "no program in this folder"},
     };

@@ -418,7 +418,8 @@ TEST(mote_bodies_load_bad_input_names_the_place)
         {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, \"x\"], [0, 0, 0]], " SHAPE,
          "bodies.places[0][2]"},
         {"", "\"count\": 5, \"box\": 4, \"near\": -1, " SHAPE, "bodies.near"},
-        {"", "\"count\": 5, \"box\": 4, \"shapes\": [3]", "bodies.shapes[0]: is not an object"},
+        {"", "\"count\": 5, \"box\": 4, \"shapes\": [3]",
+         "bodies.shapes[0]: is 3; give an object"},
         {"",
          "\"count\": 5, \"box\": 4, \"shapes\": [{\"letter\": \"T\", \"triangles\": 400, "
          "\"mass\": 1}]",

@@ -241,6 +241,8 @@ TEST(a_position_that_is_not_finite_names_the_body)
             mote_engine_show(engine, frame.states);
             test_row("%s", exact[m]);
             assert_int_equal(mote_engine_ask(engine, &cost), MOTE_EINVAL);
+            if (strncmp(mote_error_text(), "body 4: ", 8) != 0) /* counted from 1 */
+                fail_msg("%s", mote_error_text());
             mote_engine_destroy(engine);
         }
     }

@@ -182,6 +182,44 @@ TEST(impact_truth_finds_what_no_sample_sees)
     }
 }
 
+/* The second one slides past the face x = 0, farther than the tolerance by 1e-10 of it, which
+   is rounding to the search: no sample is in contact, and what a method says is not judged. */
+TEST(impact_truth_of_bodies_that_graze_is_undecided)
+{
+    char text[600];
+    const double place = (-1 - 0.01 * sqrt(3) * (1 + 1e-10)) / sqrt(3); /* L is sqrt(3) */
+    (void)snprintf(text, sizeof text,
+                   "{\"purpose\": \"p\", \"frames\": 2, \"ask\": \"impact\", \"step\": 1, "
+                   "\"tolerance\": 0.01, \"bodies\": [{\"file\": \"t.obj\"}, {\"file\": "
+                   "\"t.obj\", \"motion\": [{\"frame\": 1, \"position\": [%.17g, 0.1, 0.2]}, "
+                   "{\"frame\": 2, \"position\": [%.17g, 0.2, 0.1]}]}]}",
+                   place, place);
+    file_put("t.obj", TETRAHEDRON);
+    file_put("graze.json", text);
+    mote_scenario *scenario = load("./graze.json");
+    for (int read = 0; read < 2; ++read) { /* computed, then read from the file */
+        mote_impact_truth *truth = NULL;
+        double to = 0;
+        if (mote_impact_truth_load_or_compute(scenario, 3, ".", &truth) != MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        assert_true(isinf(truth->first[0]) == 1);
+        assert_int_equal(truth->unsampled, 0);
+        assert_int_equal(mote_impact_truth_between(truth, 1, 1, &to), -1);
+        mote_impact_truth_destroy(truth);
+    }
+    mote_scenario_destroy(scenario);
+    char *file = file_text("truth/graze-0000000000000003-impacts.csv");
+    assert_non_null(strstr(file, "\n1,undecided\n"));
+    free(file);
+    /* aabb-tree asks at single times and finds none. */
+    mote_expect(0, "", "run graze.json --method aabb-tree --replicates 1 --out graze");
+    json_t *summary = json_load_file("graze/summary.json", 0, NULL);
+    const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_true(json_is_null(json_object_get(row, "missed")));
+    assert_true(json_is_null(json_object_get(row, "false_contacts")));
+    json_decref(summary);
+}
+
 TEST(impact_truth_of_a_step_is_that_of_its_first_gap_with_an_impact)
 {
     double first[] = {NAN, 0.5, NAN, 0.25}, to = 0;
@@ -193,6 +231,13 @@ TEST(impact_truth_of_a_step_is_that_of_its_first_gap_with_an_impact)
     assert_true(to == 0.625);
     /* Beyond the last frame there is nothing. */
     assert_int_equal(mote_impact_truth_between(&truth, 5, 3, &to), 0);
+    /* An impact before an undecided gap is the first, one behind it may not be. */
+    first[2] = HUGE_VAL;
+    assert_int_equal(mote_impact_truth_between(&truth, 1, 4, &to), 1);
+    assert_true(to == 0.375);
+    assert_int_equal(mote_impact_truth_between(&truth, 3, 1, &to), -1);
+    assert_int_equal(mote_impact_truth_between(&truth, 3, 2, &to), -1);
+    assert_int_equal(mote_impact_truth_between(&truth, 4, 1, &to), 1);
 }
 
 /* A file that is whole but says something else than the scenario's truth may. */
@@ -209,6 +254,7 @@ TEST(impact_truth_that_cannot_be_right_is_computed_anew)
         {"0\n", "frame,first\n1,x\n"},   {"0\n", "frame,first\n1,0.5;\n"},
         {"0\n", "frame,first\n1,-1\n"},  {"0\n", "frame,first\n1,1.5\n"},
         {"0\n", "frame,first\n1,nan\n"}, {"0\n", "frame,first\n1,0.5\n2,0.5\n"},
+        {"0\n", "frame,first\n1,inf\n"}, {"0\n", "frame,first\n1,undecided;\n"},
         {"0\n", "frame,first\n"},
     };
     mote_scenario *scenario = load_two("-3, 0.2, 0.2", "3, 0.2, 0.2");

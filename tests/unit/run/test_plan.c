@@ -38,7 +38,7 @@ TEST(plans_that_cannot_be_are_refused)
          "seed=no is not valid"},
         {"run plain.json --method certified:threads=2 --out x", 4, "leave them out"},
         {"run pass.json --method certified:threads=2 --out x", 4, "leave them out"},
-        {"run plain.json --method particle --particles 1-20000 --out x", 4,
+        {"run plain.json --method particle --particles 1-20000 --out x", 2,
          "more than 10000 particle counts"},
         {"run plain.json --method particle-paper --particles 1-6000 --method particle "
          "--particles 1-6000 --out x",

@@ -54,6 +54,21 @@ TEST(mote_scene_referee_agrees_with_true_answers)
     assert_true(contacts > 10 && others > 100);
 }
 
+/* The error names one of these pairs, its bodies counted from 1. */
+static void check_names(const mote_near_pair *pairs, size_t count)
+{
+    unsigned a = 0, b = 0;
+    const char *names = strstr(mote_error_text(), "bodies ");
+    assert_non_null(names);
+    assert_int_equal(sscanf(names, "bodies %u and %u", &a, &b), 2);
+    const uint32_t low = (a < b ? a : b) - 1, high = (a < b ? b : a) - 1;
+    for (size_t i = 0; i < count; ++i) {
+        if (pairs[i].body[0] == low && pairs[i].body[1] == high)
+            return;
+    }
+    fail_msg("%s", mote_error_text());
+}
+
 TEST(mote_scene_referee_finds_wrong_distances_and_contacts)
 {
     mote_near_pair pairs[PAIRS_MAX];
@@ -62,12 +77,16 @@ TEST(mote_scene_referee_finds_wrong_distances_and_contacts)
         pairs[i].answer.distance += 1e-9 * subject.bodies->length;
     assert_int_equal(judge(7, pairs, count), MOTE_ENUMERIC);
     assert_non_null(strstr(mote_error_text(), "crowd.json: frame 7: bodies "));
+    assert_int_equal(judge(7, pairs, 1), MOTE_ENUMERIC);
+    check_names(&pairs[0], 1);
     for (size_t i = 0; i < count; ++i) {
         pairs[i].answer.has_distance = false;
         pairs[i].answer.contact = !pairs[i].answer.contact;
     }
     assert_int_equal(judge(7, pairs, count), MOTE_ENUMERIC);
     assert_non_null(strstr(mote_error_text(), "contact: brute force"));
+    assert_int_equal(judge(7, pairs, 1), MOTE_ENUMERIC);
+    check_names(&pairs[0], 1);
 }
 
 /* A pair whose contact is told wrongly; within rounding of the tolerance either is right. */
@@ -111,11 +130,12 @@ TEST(mote_scene_referee_finds_pairs_that_are_missing)
     mote_near_pair pairs[PAIRS_MAX];
     int found = 0;
     for (uint32_t k = 1; k <= FRAMES; ++k) {
-        (void)ask(k, pairs);
+        const size_t count = ask(k, pairs);
         if (judge(k, pairs, 0) == MOTE_OK)
             continue;
         ++found;
         assert_non_null(strstr(mote_error_text(), "not among the near pairs"));
+        check_names(pairs, count);
     }
     assert_in_range(found, 5, FRAMES);
 }

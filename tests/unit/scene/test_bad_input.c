@@ -73,6 +73,12 @@ static const input inputs[] = {
     {"index.obj", OBJ "f 1 2 99999999999999999999\n", 4, "index.obj:5:"},
     {"comma.obj", "v 1,5 0 0\n", 4, "comma.obj:1:"},
     {"nothing.obj", "", 4, "nothing.obj"},
+    {"early.obj", "f 1 2 3\n", 4, "early.obj:1: a face before any vertex; give the lines of v"},
+    {"none.off", "OFF\n0 1 0\n3 0 1 2\n", 4, "none.off:2: declares no vertex; give a mesh"},
+    {"none.ply",
+     "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nelement face 1\nproperty list "
+     "uchar int vertex_indices\nend_header\n3 0 1 2\n",
+     4, "none.ply: declares no vertex; give a mesh"},
     {"nan.off", "OFF\n3 1 0\n0 0 nan\n", 4, "nan.off:3:"},
     {"counts.off", "OFF\n4000000000 4000000000 0\n", 4, "counts.off:2:"},
     {"index.off", OFF "\n", 0, "triangles           4"},

@@ -158,8 +158,8 @@ TEST(positions_follow_scale_and_motion)
     mote_scenario_destroy(s);
 }
 
-/* An unused vertex and an edge of three faces: the mesh's vertices differ from the file's. */
-TEST(positions_find_the_vertices_that_the_mesh_kept)
+/* Two frames of an unused vertex and an edge of three faces. */
+static void write_fan(void)
 {
     for (int k = 1; k <= 2; ++k) {
         char name[16], text[256];
@@ -171,6 +171,12 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
         file_put(name, text);
     }
     write_scenario("\"positions\": \"n1.obj\"", "", 2);
+}
+
+/* The mesh's vertices differ from the file's. */
+TEST(positions_find_the_vertices_that_the_mesh_kept)
+{
+    write_fan();
     mote_scenario *s = load();
     const mote_mesh *mesh = s->body[0].mesh;
     assert_true(mesh->vertex_count > 5); /* split */
@@ -182,6 +188,48 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
     }
     mote_frame_buffer_destroy(buffer);
     mote_scenario_destroy(s);
+}
+
+TEST(positions_with_an_edge_of_three_faces_are_strictly_refused)
+{
+    write_fan();
+    mote_expect(0, "1 edge of more than two faces cut apart", "check s.json");
+    mote_expect(
+        4, "n1.obj: 1 edge of more than two faces (non-manifold): ", "--strict check s.json");
+    mote_expect(4, "(non-manifold)", "run --strict s.json --dry-run");
+    file_put("n1.obj", "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
+    file_put("n2.obj", "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+    mote_expect(0, "2 frames", "--strict check s.json");
+}
+
+TEST(positions_of_no_text_or_no_vertex_are_refused_as_such)
+{
+    static const char ply[] =
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+        "property float y\nproperty float z\nelement face 1\nproperty list "
+        "uchar int vertex_indices\nend_header\n3 0 1 2\n";
+    write_scenario("\"positions\": \"e1.obj\"", "", 1);
+    file_put("e1.obj", "");
+    mote_expect(4, "e1.obj: an empty file, no face in it; give a mesh", "check s.json");
+    file_put("e1.obj", "\xff\xfev");
+    mote_expect(4, "e1.obj: a text in UTF-16; save it as UTF-8", "check s.json");
+    write_scenario("\"positions\": \"e1.ply\"", "", 1);
+    file_put("e1.ply", ply);
+    mote_expect(4, "e1.ply:9: declares no vertex; give a mesh", "check s.json");
+}
+
+/* A sheet is open, too, but closing it would not help. */
+TEST(positions_are_refused_by_the_closed_loop_as_such)
+{
+    for (int k = 1; k <= 3; ++k) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "f%d.obj", k);
+        sheet_write_obj(name, k);
+    }
+    write_scenario("\"positions\": \"f1.obj\"", "", 3);
+    mote_expect(4, "mote: s.json: a closed loop moves each body as its contacts tell",
+                "simulate s.json --method stream --steps 2");
+    mote_expect(4, "but of body 1 only positions are given", "simulate s.json --method stream");
 }
 
 /* Reads the frames backwards in a child process, which must not affect its parent's reads. */

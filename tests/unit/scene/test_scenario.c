@@ -202,7 +202,7 @@ typedef struct bad_case {
 #define POSE(keys) "{\"frame\": 20, \"position\": [1, 0, 0]}", "{" keys "}"
 
 static const bad_case bad_cases[] = {
-    {FIELD("3"), "not an object"},
+    {FIELD("3"), "is 3; give an object"},
     {FIELD("{}"), "exactly one"},
     {FIELD("{\"sines\": [], \"random\": {}}"), "exactly one"},
     {FIELD("{\"sines\": 3}"), "array of 1 to"},
@@ -211,7 +211,7 @@ static const bad_case bad_cases[] = {
     {SINE("\"control\": 0"), "1 to 2"},
     {SINE("\"control\": 2, \"amplitude\": 1"), "array of 3"},
     {SINE(SINE_GOOD ", \"period\": 0"), "out of range"},
-    {SINE(SINE_GOOD ", \"period\": 30, \"phase\": \"x\""), "phase: is not a number"},
+    {SINE(SINE_GOOD ", \"period\": 30, \"phase\": \"x\""), "phase: is a string; give a number"},
     {SINE(SINE_GOOD ", \"period\": 30, \"phase\": 0.5"), "control: is missing"},
     {RANDOM("\"speed\": 1"), "unknown key; known here are seed"},
     {RANDOM("\"seed\": 1, \"amplitude\": -1"), "out of range"},
@@ -225,7 +225,7 @@ static const bad_case bad_cases[] = {
     {KEYS("\"frame\": 1, \"vectors\": [[0, 0, 0], [0, 0, 1e9]]"), "out of range"},
     {"\"count\": 14, ", "", ":10: bodies[0].field: ", "neither"},
     {"\"count\": 14", "\"centres\": [[0, 0, \"x\"], [1, 1, 1]]",
-     ":10: bodies[0].field.centres[0][2]: ", "not a number"},
+     ":10: bodies[0].field.centres[0][2]: ", "is a string"},
     {"\"count\": 14", "\"centres\": []", ":10: bodies[0].field.centres: ", "array of 1 to"},
     {"\"count\": 14", "\"count\": 14, \"kind\": \"csrbf\", \"mass\": 1",
      ":10: bodies[0].field.mass: ", "unknown key"},
@@ -239,7 +239,7 @@ static const bad_case bad_cases[] = {
      ":17: bodies[1].motion[1].degrees: ", "is missing"},
     {POSE("\"frame\": 20, \"speed\": 1"), ":17: bodies[1].motion[1].speed: ", "unknown key"},
     {"\"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}", "\"motion\": [3",
-     ":16: bodies[1].motion[0]: ", "not an object"},
+     ":16: bodies[1].motion[0]: ", "is 3; give an object"},
     /* Short steps beside a long one: the curve overshoots through the origin. */
     {"\"degrees\": 0}",
      "\"degrees\": 90}, " TURN("2", "0")
@@ -256,22 +256,23 @@ static const bad_case bad_cases[] = {
      ":15: bodies[1].spin: ", "array of 3"},
     {"\"letter\": \"V\", ", "", ":15: bodies[1]: ", "neither"},
     {"\"letter\": \"V\"", "\"letter\": \"V\", \"file\": \"a.obj\"", ":15: bodies[1]: ", "both"},
-    {"\"letter\": \"V\"", "\"letter\": 3", ":15: bodies[1].letter: ", "not a string"},
+    {"\"letter\": \"V\"", "\"letter\": 3", ":15: bodies[1].letter: ", "is 3; give a string"},
     {"\"letter\": \"V\", \"triangles\": 500", "\"file\": 3",
-     ":15: bodies[1].file: ", "not a string"},
+     ":15: bodies[1].file: ", "is 3; give a string"},
     {"\"letter\": \"V\"", "\"letter\": \"V\", \"scale\": [1, 0, 1]",
      ":15: bodies[1].scale[1]: ", "out of range"},
     {"\"letter\": \"V\"", "\"letter\": \"V\", \"scale\": \"big\"",
      ":15: bodies[1].scale: ", "array of 3"},
     {"\"active\": [10, 40]", "\"active\": [\"x\", 40]", ":5: active[0]: ", "whole number"},
     {"\"active\": [10, 40]", "\"active\": [10]", ":5: active: ", "array of 2"},
-    {"\"ask\": \"distance\"", "\"ask\": 3", ":6: ask: ", "not a string"},
+    {"\"ask\": \"distance\"", "\"ask\": 3", ":6: ask: ", "is 3; give a string"},
     {"\"frames\": 40", "\"frames\": 40, \"start\": 0.5", ":3: start: ", "out of range"},
     {"\"frames\": 40", "\"frames\": 40, \"pace\": 0", ":3: pace: ", "out of range"},
     {"\"purpose\": \"a test\"", "\"purpose\": \"\"", ":2: purpose: ", "give a string"},
     {"\"frames\": 40", "\"frames\": 40,\n \"fps\": 3", ":4: fps: ", "unknown key"},
     {"\"frames\": 40", "\"frames\": 0", ":3: frames: ", "out of range"},
-    {"\"frames\": 40", "\"frames\": 1e9", ":3: frames: ", "not a whole number"},
+    {"\"frames\": 40", "\"frames\": 1e9", ":3: frames: ", "out of range"},
+    {"\"frames\": 40", "\"frames\": 40.5", ":3: frames: ", "is 40.5; give a whole number"},
     {"\"frames\": 40", "\"frames\": 40, \"frames\": 41", ":3:", "uplicate"},
     {"\"active\": [10, 40]", "\"active\": [10, 41]", ":5: active[1]: ", "1 to 40"},
     {"\"active\": [10, 40]", "\"active\": [40, 10]", ":5: active: ", "empty"},
@@ -297,7 +298,7 @@ static const bad_case bad_cases[] = {
      ":13: bodies[0].motion: ", "ascending"},
     {"\"frame\": 20, ", "\"frame\": 0, ", ":17: bodies[1].motion[1].frame: ", "out of range"},
     {"[1, 0, 0]", "[1, 0]", ":17: bodies[1].motion[1].position: ", "array of 3"},
-    {"[1, 0, 0]", "[1, 0, \"x\"]", ":17: bodies[1].motion[1].position[2]: ", "not a number"},
+    {"[1, 0, 0]", "[1, 0, \"x\"]", ":17: bodies[1].motion[1].position[2]: ", "is a string"},
     {"\"position\": [1, 0, 0]", "\"quaternion\": [1, 1, 0, 0]",
      ":17: bodies[1].motion[1].quaternion: ", "length"},
     {", \"position\": [1, 0, 0]", "", ":17: bodies[1].motion[1]: ", "sets nothing"},
@@ -456,10 +457,10 @@ TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
 {
     static const struct {
         const char *more, *says;
-    } cases[] = {{"\"active\": {\"first\": 2}", "active: is not that"},
-                 {"\"bodies\": [{}]", "bodies: is not that; give an array of 2"},
-                 {"\"bodies\": 3", "bodies: is not that"},
-                 {"\"bodies\": [3, {}]", "bodies[0]: is not an object"},
+    } cases[] = {{"\"active\": {\"first\": 2}", "active: is an object; give an array of 2"},
+                 {"\"bodies\": [{}]", "bodies: is an array of 1; give an array of 2"},
+                 {"\"bodies\": 3", "bodies: is 3; give an array of 2"},
+                 {"\"bodies\": [3, {}]", "bodies[0]: is 3; give an object"},
                  {"\"bodies\": null", "bodies: is missing"}};
     mote_scenario *scenario = NULL;
     mote_scenario_destroy(load_good());
@@ -471,12 +472,18 @@ TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
         if (!strstr(mote_error_text(), cases[k].says))
             fail_msg("%s: %s", cases[k].more, mote_error_text());
     }
+    file_put("list.json", "[]");
+    write_like("{\"purpose\": \"x\",\n\"like\": \"list.json\"}");
+    assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(),
+                           "like.json:2: like: list.json:1: is an array of 0; "
+                           "give an object, which a scenario is"));
     write_like("{\"purpose\": \"x\",\n\"like\": \"/proc/self/x.json\"}");
     assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "like.json:2: like: /proc/self/x.json"));
     write_like("{\"purpose\": \"x\",\n\"like\": 3}");
     assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
-    assert_non_null(strstr(mote_error_text(), "like.json:2: like: is not a string"));
+    assert_non_null(strstr(mote_error_text(), "like.json:2: like: is 3; give a string"));
     assert_null(scenario);
 }
 

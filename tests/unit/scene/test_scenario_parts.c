@@ -55,7 +55,7 @@ TEST(scenario_of_odd_values_is_refused_with_their_place)
         {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": 0", DIAMOND_FILE),
          "s.json:1: bodies[0].scale: 0 is out of range"},
         {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": [1, 2]", DIAMOND_FILE),
-         "s.json:1: bodies[0].scale: is not that; give an array of 3"},
+         "s.json:1: bodies[0].scale: is an array of 2; give an array of 3"},
         {SCENE(FRAMES, "\"letter\": \"W\", \"triangles\": 401, \"positions\": \"c.pc2\"",
                DIAMOND_FILE),
          "bodies[0].letter: "},
@@ -65,25 +65,36 @@ TEST(scenario_of_odd_values_is_refused_with_their_place)
         {SCENE(FRAMES, "\"file\": \"d.obj\", \"positions\": \"c.pc2\"", DIAMOND_FILE),
          "c.pc2: 25 vertices, and the mesh has 6; give the mesh that the cache was made of"},
         {SCENE(FRAMES, "\"file\": 3, \"positions\": \"c.pc2\"", DIAMOND_FILE),
-         "bodies[0].file: is not a string"},
+         "bodies[0].file: is 3; give a string"},
         {SCENE(FRAMES, "\"positions\": 3", DIAMOND_FILE),
-         "bodies[0].positions: is not a string"},
+         "bodies[0].positions: is 3; give a string"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": 1e16", DIAMOND_FILE),
          "s.json:1: bodies[0].scale: 10000000000000000 is out of range"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": true", DIAMOND_FILE),
-         "bodies[0].scale: is not that; give an array of 3"},
+         "bodies[0].scale: is true; give a number or an array of 3"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"field\": 3", DIAMOND_FILE),
-         "bodies[0].field: is not an object"},
+         "bodies[0].field: is 3; give an object"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"soft\"}", DIAMOND_FILE),
          "bodies[0].field.kind: unknown kind soft; known are csrbf"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": 3}", DIAMOND_FILE),
-         "bodies[0].field.kind: is not a string"},
+         "bodies[0].field.kind: is 3; give a string"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"stretch\", \"a\": \"b\"}",
                DIAMOND_FILE),
-         "bodies[0].field: "},
+         "bodies[0].field.a: unknown key; known here are kind"},
         {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"count\": 7, \"support\": 1}",
                DIAMOND_FILE),
          "bodies[0].field.count: the mesh has only 6 different positions, not 7"},
+        {SCENE(FRAMES, DIAMOND_FILE ", \"triangles\": \"400\"", DIAMOND_FILE),
+         "bodies[0].triangles: is a string; give a whole number from 400 to 20000000"},
+        {SCENE(FRAMES, DIAMOND_FILE, DIAMOND_FILE ", \"clip\": 1"),
+         "bodies[1].clip: clip without a character"},
+        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"loop\": true", DIAMOND_FILE),
+         "bodies[0].loop: loop without a character"},
+        {SCENE(FRAMES, DIAMOND_FILE ", \"letter\": \"W\", \"positions\": \"c.pc2\"",
+               DIAMOND_FILE),
+         "bodies[0]: a letter and a file; give one of them with the cache"},
+        {SCENE(FRAMES ", \"frames|ask\": 1", DIAMOND_FILE, DIAMOND_FILE),
+         "s.json:1: frames|ask: unknown key"},
         {SCENE(FRAMES, "\"character\": \"bar.x\", \"scale\": 0", DIAMOND_FILE),
          "bodies[0].scale: 0 is out of range"},
         {SCENE(FRAMES, DIAMOND_FILE,
@@ -168,6 +179,19 @@ TEST(scenario_like_one_below_finds_positions_and_adds_objects)
     mote_scenario *more = load("more.json");
     assert_int_equal(more->body[0].field->count, 3);
     mote_scenario_destroy(more);
+}
+
+/* Two bodies in the place of several: null leaves a key out of them, too. */
+TEST(scenario_like_one_of_several_bodies_may_leave_keys_out)
+{
+    file_put("c.json",
+             "{\"purpose\": \"x\", " FRAMES ", \"bodies\": {\"count\": 2, \"box\": 9, "
+             "\"shapes\": [{" DIAMOND_FILE "}]}}");
+    file_put("like.json", "{\"like\": \"c.json\", \"bodies\": [{" DIAMOND_FILE
+                          ", \"field\": null}, {" DIAMOND_FILE "}]}");
+    mote_scenario *s = load("like.json");
+    assert_int_equal(s->body[0].field->count, 0);
+    mote_scenario_destroy(s);
 }
 
 /* Files whose names have colons or no ending, and a direction that is a file. */
@@ -404,6 +428,12 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
     }
     mote_bodies none = {.frames = 1, .count = 1};
     assert_int_equal(mote_bodies_poses_read("none.csv", &none), MOTE_EIO);
+    /* no room for 6e13 bytes of poses is asked for before they are there */
+    mote_bodies many = {.frames = 1000000, .count = 1000000, .length = 2};
+    file_put("p.csv", POSES ROW_1);
+    assert_int_equal(mote_bodies_poses_read("p.csv", &many), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "p.csv:3: not a pose; expected frame 1, body 2"));
+    free(many.recorded);
     assert_null(none.recorded);
 }
 

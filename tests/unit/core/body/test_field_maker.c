@@ -161,3 +161,95 @@ TEST(field_of_kind_csrbf_is_the_default)
     }
     assert_true(fingerprint[0] == fingerprint[1]);
 }
+
+/* A kind with a parameter of each type, which keeps what it was given. */
+enum { LEVELS, REACH, SPEED, LAW, PARAMETERS };
+
+static const mote_parameter parameters[PARAMETERS] = {
+    [LEVELS] = {"levels", MOTE_PARAMETER_INTEGER, 1, 9, NULL, "3", "x"},
+    [REACH] = {"reach", MOTE_PARAMETER_REAL, 0, 2, "auto", "auto", "x"},
+    [SPEED] = {"speed", MOTE_PARAMETER_REAL, 0, HUGE_VAL, NULL, "1", "x"},
+    [LAW] = {"law", MOTE_PARAMETER_CHOICE, 0, 0, "log|inverse", "log", "x"},
+};
+static double given[PARAMETERS];
+
+static mote_status create_tuned(const mote_mesh *mesh, const double *values, mote_field **field)
+{
+    memcpy(given, values, sizeof given);
+    return mote_field_maker_find("stretch")->create(mesh, NULL, field);
+}
+
+static void add_tuned(void)
+{
+    static const mote_field_maker tuned = {.name = "tuned",
+                                           .summary = "x",
+                                           .parameters = parameters,
+                                           .parameter_count = PARAMETERS,
+                                           .create = create_tuned};
+    if (!mote_field_maker_find("tuned"))
+        assert_int_equal(mote_field_maker_add(&tuned), MOTE_OK);
+}
+
+TEST(field_takes_its_kind_s_parameters)
+{
+    static const struct {
+        const char *keys;
+        double values[PARAMETERS];
+    } rows[] = {
+        {"\"kind\": \"tuned\"", {3, MOTE_AUTO, 1, 0}},
+        {"\"kind\": \"tuned\", \"levels\": 9, \"reach\": 0.1, \"speed\": 1e300, \"law\": "
+         "\"inverse\"",
+         {9, 0.1, 1e300, 1}},
+        {"\"kind\": \"tuned\", \"levels\": 2.0, \"reach\": \"auto\", \"speed\": \"inf\"",
+         {2, MOTE_AUTO, HUGE_VAL, 0}},
+    };
+    add_tuned();
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_scenario *s = NULL;
+        test_row("%s", rows[i].keys);
+        write_scenario(rows[i].keys);
+        assert_int_equal(mote_scenario_load(path, &s), MOTE_OK);
+        assert_memory_equal(given, rows[i].values, sizeof given);
+        mote_scenario_destroy(s);
+    }
+}
+
+/* Nothing of another type is taken for a number, and no text for several parameters. */
+TEST(field_refuses_parameters_of_another_type)
+{
+    static const struct {
+        const char *keys, *says;
+    } rows[] = {
+        {"\"levels\": null", "levels: is null; give a number from 1 to 9"},
+        {"\"levels\": true", "levels: is true; give a number from 1 to 9"},
+        {"\"levels\": \"4\"", "levels: is a string; give a number from 1 to 9"},
+        {"\"levels\": [4]", "levels: is an array of 1; give a number from 1 to 9"},
+        {"\"levels\": \"auto\"", "levels: is a string; give a number from 1 to 9"},
+        {"\"levels\": 10", "levels must be a whole number from 1 to 9"},
+        {"\"levels\": 1.5", "levels must be a whole number from 1 to 9"},
+        {"\"reach\": false", "reach: is false; give a number from 0 to 2, or \"auto\""},
+        {"\"reach\": {}", "reach: is an object; give a number from 0 to 2, or \"auto\""},
+        {"\"reach\": \"0.5\"", "reach: is a string; give a number from 0 to 2, or \"auto\""},
+        {"\"reach\": \"inf\"", "reach: is a string; give a number"},
+        {"\"speed\": \"1\"", "speed: is a string; give a number from 0 to inf"},
+        {"\"law\": null", "law: is null; give one of log|inverse"},
+        {"\"law\": \"cubic\"", "law must be one of log|inverse"},
+        {"\"law\": 1", "law must be one of log|inverse"},
+        {"\"law\": \"log,levels=4\"", "law: is a string; give one of log|inverse"},
+        {"\"reach=1,levels\": 4", "reach=1,levels: unknown key; known here are kind|"},
+        {"\"levels|reach\": 4", "levels|reach: unknown key; known here are kind|"},
+    };
+    add_tuned();
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_scenario *s = NULL;
+        char keys[200];
+        test_row("%s", rows[i].keys);
+        (void)snprintf(keys, sizeof keys, "\"kind\": \"tuned\", %s", rows[i].keys);
+        write_scenario(keys);
+        assert_int_equal(mote_scenario_load(path, &s), MOTE_EINVAL);
+        assert_null(s);
+        if (!strstr(mote_error_text(), rows[i].says) ||
+            !strstr(mote_error_text(), "s.json:4: bodies[0].field"))
+            fail_msg("%s", mote_error_text());
+    }
+}

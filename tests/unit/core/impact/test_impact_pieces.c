@@ -71,6 +71,42 @@ TEST(mote_impact_query_pieces_without_weights_are_at_rest)
     assert_in_range(impacts, 5, 19);
 }
 
+/* What centre, rotation and weights miss counts together: 0.6 of what is let pass by one of
+   them is let pass, by two of them it is not. */
+TEST(mote_impact_query_pieces_that_miss_each_other_a_little_by_everything)
+{
+    const double size = 3.5 + 1.35; /* of the centre's largest number and the torus, at least */
+    const double little = 0.6 * 0x1p-42;
+    for (int missed = 0; missed < 8; ++missed) {
+        impact_scene s;
+        test_row("missed: %d", missed);
+        impact_scene_init(&s, make_torus(9, 5, 1), make_torus(7, 5, 1), IMPACT_CSRBF, 2);
+        const impact_wild still = {.pieces = 2, .from = {3.5, 0, 0}, .to = {3.5, 0, 0}};
+        impact_path_random(&s.of[0], &still, &s.random);
+        impact_path_random(&s.of[1], &still, &s.random);
+        impact_body *b = &s.of[1];
+        assert_in_range(b->field->padded, 1, 64);
+        double sum = 0; /* of the first function: the most that a vertex moves by a weight */
+        for (uint32_t v = 0; v < b->mesh->vertex_count; ++v) {
+            double phi[64];
+            b->field->kind->basis(b->field, b->mesh, v, phi);
+            sum = fmax(sum, phi[0]);
+        }
+        if (missed & 1)
+            b->piece[1].centre[0].z += little * size;
+        if (missed & 2) /* two entries of the rotation change by twice this */
+            b->piece[1].turn[0].x += little / 4;
+        if (missed & 4)
+            b->control[1][0] += little * size / sum;
+        const mote_impact_question q = impact_question(&s, 0);
+        mote_impact_found found;
+        const int parts = (missed & 1) + (missed >> 1 & 1) + (missed >> 2);
+        assert_int_equal(mote_impact_query(s.search, &q, &found),
+                         parts < 2 ? MOTE_OK : MOTE_EINVAL);
+        impact_scene_free(&s);
+    }
+}
+
 /* A spin goes over into cubic quaternions, and back. */
 TEST(mote_impact_query_between_kinds_of_rotation)
 {

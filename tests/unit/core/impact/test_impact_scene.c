@@ -7,6 +7,7 @@
 #include "tests/support/test.h"
 
 #include <stdio.h>
+#include <time.h>
 
 enum { BODIES = 9, SHAPES = 5 };
 
@@ -491,4 +492,68 @@ TEST(mote_impact_scene_of_one_body)
     assert_int_equal(found.near_pairs, 0);
     mote_impact_scene_destroy(only);
     impact_body_free(&b);
+}
+
+enum { ROW = 60000 };
+
+/* Boxes in a row along x, in the order of their numbers times `factor`, 4 from middle to
+   middle. factor: prime to ROW. */
+static void put_in_a_row(mote_path *paths, mote_path_piece *pieces, uint64_t factor)
+{
+    for (uint32_t i = 0; i < ROW; ++i) {
+        const double x = 4 * (double)(i * factor % ROW);
+        const mote_vec3 at = mote_vec3_make(x, 0, 0);
+        pieces[i] = (mote_path_piece){.turn = {{1, 0, 0, 0}}, .spins = true};
+        mote_path_line(at, at, pieces[i].centre);
+        paths[i] = (mote_path){.pieces = &pieces[i], .count = 1};
+    }
+}
+
+static double seconds_of_query(mote_impact_scene *row, const mote_path *paths, double tolerance,
+                               size_t near)
+{
+    const mote_impact_scene_question q = {.paths = paths, .end = 1, .tolerance = tolerance};
+    mote_impact_scene_found found;
+    const clock_t from = clock();
+    if (mote_impact_scene_query(row, &q, &found) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(found.near_pairs, near);
+    return (double)(clock() - from) / CLOCKS_PER_SEC;
+}
+
+/* The first query, and one after a leap, take about as long as one of bodies that stay: where
+   bodies were always sorted by insertion they took 30 times as long. */
+TEST(mote_impact_scene_query_sorts_many_bodies_that_leap)
+{
+    mote_mesh *mesh = impact_box(1, 1, 1);
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_static(&field), MOTE_OK);
+    const mote_body body = {.mesh = mesh, .field = field};
+    const mote_body *const shapes[1] = {&body};
+    const mote_impact_options options = mote_default_impact_options(2);
+    uint32_t *shape_of = calloc(ROW, sizeof *shape_of);
+    mote_path *paths = calloc(ROW, sizeof *paths);
+    mote_path_piece *pieces = calloc(ROW, sizeof *pieces);
+    mote_impact_scene *row = NULL;
+    assert_true(shape_of && paths && pieces);
+    assert_int_equal(mote_impact_scene_create(shapes, 1, shape_of, ROW, &options, &row),
+                     MOTE_OK);
+    put_in_a_row(paths, pieces, 24007);
+    const double first = seconds_of_query(row, paths, 0, 0);
+    double same = 1e9;
+    for (int k = 0; k < 3; ++k)
+        same = fmin(same, seconds_of_query(row, paths, 0, 0));
+    put_in_a_row(paths, pieces, 7919);
+    const double leap = seconds_of_query(row, paths, 0, 0);
+    if (!(first < 8 * same && leap < 8 * same))
+        fail_msg("%g s at first, %g s of bodies that stay, %g s after a leap", first, same,
+                 leap);
+    /* in order, each is near the next one alone */
+    (void)seconds_of_query(row, paths, 3.5, ROW - 1);
+    mote_impact_scene_destroy(row);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+    free(shape_of);
+    free(paths);
+    free(pieces);
 }
