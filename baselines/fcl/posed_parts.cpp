@@ -10,7 +10,7 @@
    which FCL can only turn and move: the nearest rotation stands for a bone that scales or
    shears. search=certified: the certified query on a skin in which every vertex follows one
    bone, which shows what blending costs that query. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 #include "core/certificate/certificate.h"
 #include "core/skin/skin.h"
 

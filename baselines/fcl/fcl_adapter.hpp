@@ -19,9 +19,9 @@
 #define EIGEN_MAX_ALIGN_BYTES 16
 #define EIGEN_HAS_CXX17_OVERALIGN 0
 
-#include "baselines/fcl_parameters.hpp"
+#include "baselines/fcl/fcl_parameters.hpp"
 #include "baselines/input.h"
-#include "baselines/sample_splitter.hpp"
+#include "baselines/fcl/sample_splitter.hpp"
 #include "core/body/triangle.h"
 
 #include <algorithm>

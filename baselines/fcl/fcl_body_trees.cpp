@@ -2,7 +2,7 @@
    with the last pair of triangles as the first bound and a queue of 64 (the best setting that
    we found). */
 #include "baselines/body_trees.h"
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {
