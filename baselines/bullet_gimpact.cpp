@@ -8,6 +8,7 @@
    Bullet is normally used, so it is not the default. Bullet's public contactPairTest and its
    closest-point algorithms find no contact between two GImpact meshes, so the algorithm for
    contact points is called. */
+#include "baselines/guard.hpp"
 #include "baselines/physics_engine.h"
 
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -15,7 +16,6 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
-#include <new>
 #include <vector>
 
 namespace
@@ -160,16 +160,18 @@ void Pair::query(mote_answer *answer)
                                      body[0].object.getWorldTransform(), -1, -1);
     const btCollisionObjectWrapper b(nullptr, body[1].shape.get(), &body[1].object,
                                      body[1].object.getWorldTransform(), -1, -1);
-    btCollisionAlgorithm *algorithm =
-        dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    const auto give_back = [this](btCollisionAlgorithm *used) {
+        used->~btCollisionAlgorithm();
+        dispatcher.freeCollisionAlgorithm(used);
+    };
+    const std::unique_ptr<btCollisionAlgorithm, decltype(give_back)> algorithm(
+        dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS), give_back);
     Listener listener(&a, &b, stop);
     const btDispatcherInfo info;
     try {
         algorithm->processCollision(&a, &b, info, &listener);
     } catch (const FirstContact &) {
     }
-    algorithm->~btCollisionAlgorithm();
-    dispatcher.freeCollisionAlgorithm(algorithm);
     answer->has_contact = true;
     answer->contact = listener.contact;
     answer->counters.triangle_tests = listener.points;
@@ -181,6 +183,11 @@ mote_traits traits(const double *values)
                                values[POSITIONS] > 0);
 }
 
+template <class Body> mote_status guard(Body &&body) noexcept
+{
+    return mote_guard("Bullet", body);
+}
+
 mote_status create(const mote_setup *setup, void **state)
 {
     mote_physics engine;
@@ -188,12 +195,10 @@ mote_status create(const mote_setup *setup, void **state)
     const mote_status status = mote_physics_begin(&engine, setup, mode, "Bullet's GImpact");
     if (status != MOTE_OK)
         return status;
-    try {
+    return guard([&] {
         *state = new Pair(engine, setup->values[STOP] > 0);
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "no memory for bullet-gimpact");
-    }
-    return MOTE_OK;
+        return MOTE_OK;
+    });
 }
 
 void destroy(void *state)
@@ -203,13 +208,15 @@ void destroy(void *state)
 
 mote_status update(void *state, const mote_frame *frame)
 {
-    return static_cast<Pair *>(state)->update(frame);
+    return guard([&] { return static_cast<Pair *>(state)->update(frame); });
 }
 
 mote_status query(void *state, const mote_frame *, mote_answer *answer)
 {
-    static_cast<Pair *>(state)->query(answer);
-    return MOTE_OK;
+    return guard([&] {
+        static_cast<Pair *>(state)->query(answer);
+        return MOTE_OK;
+    });
 }
 
 } // namespace

@@ -20,14 +20,14 @@
 #define EIGEN_HAS_CXX17_OVERALIGN 0
 
 #include "baselines/fcl/fcl_parameters.hpp"
-#include "baselines/input.h"
 #include "baselines/fcl/sample_splitter.hpp"
+#include "baselines/guard.hpp"
+#include "baselines/input.h"
 #include "core/body/triangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <new>
@@ -60,7 +60,24 @@ inline Vector to_fcl(mote_vec3 v, double scale)
     return Vector(v.x * scale, v.y * scale, v.z * scale);
 }
 
-/* Builds a new model of a mesh as it is at rest; its splitter is set before. FCL's code. */
+/* Builds a new model; its splitter is set before. FCL's code, or std::bad_alloc where that says
+   that memory ran out. */
+template <class BV>
+int build_model(const std::vector<Vector> &vertices,
+                const std::vector<fcl::Triangle> &triangles, fcl::BVHModel<BV> &model)
+{
+    int code =
+        model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+    if (code == fcl::BVH_OK)
+        code = model.addSubModel(vertices, triangles);
+    if (code == fcl::BVH_OK)
+        code = model.endModel();
+    if (code == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY)
+        throw std::bad_alloc();
+    return code;
+}
+
+/* The same for a mesh as it is at rest. */
 template <class BV>
 int build_model(const mote_mesh *mesh, double scale, fcl::BVHModel<BV> &model)
 {
@@ -72,13 +89,7 @@ int build_model(const mote_mesh *mesh, double scale, fcl::BVHModel<BV> &model)
         const uint32_t *t = mesh->triangles[i];
         triangles[i].set(t[0], t[1], t[2]);
     }
-    int code = model.beginModel(static_cast<int>(mesh->triangle_count),
-                                static_cast<int>(mesh->vertex_count));
-    if (code == fcl::BVH_OK)
-        code = model.addSubModel(vertices, triangles);
-    if (code == fcl::BVH_OK)
-        code = model.endModel();
-    return code;
+    return build_model(vertices, triangles, model);
 }
 
 inline Transform to_fcl(const mote_pose &pose, double scale)
@@ -97,18 +108,9 @@ inline mote_vec3 from_fcl(const Vector &v, double factor)
     return mote_vec3_make(v[0] * factor, v[1] * factor, v[2] * factor);
 }
 
-/* Runs body and turns exceptions into a status, since none may leave a C function. */
 template <class Body> mote_status guard(Body &&body) noexcept
 {
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "FCL ran out of memory");
-    } catch (const std::exception &error) {
-        return mote_fail(MOTE_ENUMERIC, "FCL: %s", error.what());
-    } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "FCL threw an unknown exception");
-    }
+    return mote_guard("FCL", body);
 }
 
 /* A distance node that also stops once a pair within `enough` is found, which answers a contact
