@@ -369,6 +369,10 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     if (s->seeded && s->has_last)
         measure(&q, s->last[0], s->last[1]);
     traverse(&q);
+    /* Farther apart than floats can square (1e19 L): to the rounding of such distances, any
+       pair is as near as any other. */
+    if (q.improvements == 0 && isinf(q.limit))
+        measure(&q, 0, 0);
     if (q.improvements > 0) {
         s->has_last = true;
         s->last[0] = q.triangle[0];
