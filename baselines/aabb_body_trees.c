@@ -46,35 +46,6 @@ static void destroy(void *state)
     free(s);
 }
 
-static mote_status create(const mote_body_trees_setup *setup, void **state)
-{
-    aabb_bodies *s = calloc(1, sizeof *s);
-    if (!s)
-        return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
-    s->setup = *setup;
-    s->scale = ldexp(1, -ilogb(setup->length));
-    s->shapes = calloc(setup->shape_count, sizeof *s->shapes);
-    s->place = calloc(setup->body_count, sizeof *s->place);
-    mote_status status = MOTE_OK;
-    if (!s->shapes || !s->place)
-        status = mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
-    for (uint32_t i = 0; i < setup->shape_count && status == MOTE_OK; ++i)
-        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i], false);
-    if (status == MOTE_OK)
-        *state = s;
-    else
-        destroy(s);
-    return status;
-}
-
-static void begin(void *state)
-{
-    aabb_bodies *s = state;
-    s->coordinate_max = 0;
-    for (uint32_t i = 0; i < s->setup.shape_count; ++i)
-        s->shapes[i].used = 0;
-}
-
 static mote_status add_tree(shape_trees *shape)
 {
     if (shape->count == shape->room) {
@@ -100,6 +71,37 @@ static mote_status add_tree(shape_trees *shape)
     }
     shape->trees[shape->count++] = made;
     return MOTE_OK;
+}
+
+static mote_status create(const mote_body_trees_setup *setup, void **state)
+{
+    aabb_bodies *s = calloc(1, sizeof *s);
+    if (!s)
+        return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
+    s->setup = *setup;
+    s->scale = ldexp(1, -ilogb(setup->length));
+    s->shapes = calloc(setup->shape_count, sizeof *s->shapes);
+    s->place = calloc(setup->body_count, sizeof *s->place);
+    mote_status status = MOTE_OK;
+    if (!s->shapes || !s->place)
+        status = mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
+    for (uint32_t i = 0; i < setup->shape_count && status == MOTE_OK; ++i)
+        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i], false);
+    for (uint32_t i = 0; setup->every && i < setup->body_count && status == MOTE_OK; ++i)
+        status = add_tree(&s->shapes[setup->shape_of[i]]);
+    if (status == MOTE_OK)
+        *state = s;
+    else
+        destroy(s);
+    return status;
+}
+
+static void begin(void *state)
+{
+    aabb_bodies *s = state;
+    s->coordinate_max = 0;
+    for (uint32_t i = 0; i < s->setup.shape_count; ++i)
+        s->shapes[i].used = 0;
 }
 
 static served *tree_of(const aabb_bodies *s, uint32_t body)

@@ -30,11 +30,14 @@ struct FclBodies {
     }
 };
 
-mote_status build(const FclBodies &s, uint32_t shape, Model &model)
+/* Adds a model to those of a shape. */
+mote_status add_model(FclBodies &s, uint32_t number)
 {
-    const int code = mote_fcl::build_model(s.setup.shapes[shape]->mesh, s.scale, model);
+    auto made = std::make_unique<Model>();
+    const int code = mote_fcl::build_model(s.setup.shapes[number]->mesh, s.scale, *made);
     if (code != fcl::BVH_OK)
-        return mote_fail(MOTE_ENUMERIC, "FCL could not build shape %u: code %d", shape, code);
+        return mote_fail(MOTE_ENUMERIC, "FCL could not build shape %u: code %d", number, code);
+    s.shapes[number].models.push_back(std::move(made));
     return MOTE_OK;
 }
 
@@ -51,8 +54,12 @@ mote_status create(const mote_body_trees_setup *setup, void **state)
         for (uint32_t i = 0; i < setup->shape_count; ++i)
             most = std::max(most, setup->shapes[i]->mesh->vertex_count);
         made->written.resize(most);
-        *state = made.release();
-        return MOTE_OK;
+        mote_status status = MOTE_OK;
+        for (uint32_t i = 0; setup->every && i < setup->body_count && status == MOTE_OK; ++i)
+            status = add_model(*made, setup->shape_of[i]);
+        if (status == MOTE_OK)
+            *state = made.release();
+        return status;
     });
 }
 
@@ -74,11 +81,9 @@ mote_status room(void *state, uint32_t body, mote_vec3 **vertices)
         const uint32_t number = s.setup.shape_of[body];
         ShapeModels &shape = s.shapes[number];
         if (shape.used == shape.models.size()) {
-            auto made = std::make_unique<Model>();
-            mote_status status = build(s, number, *made);
+            const mote_status status = add_model(s, number);
             if (status != MOTE_OK)
                 return status;
-            shape.models.push_back(std::move(made));
         }
         s.place[body] = shape.used++;
         *vertices = s.written.data();
