@@ -92,7 +92,7 @@ template <class BV> struct Adapter {
             return mote_fail(MOTE_EUNSUPPORTED,
                              "update=none needs a volume that Coal transforms in place");
         for (int b = 0; b < 2; ++b) {
-            if (setup->body[b]->field->count > 0)
+            if (!mote_body_is_rigid(setup->body[b]))
                 return mote_fail(MOTE_EUNSUPPORTED,
                                  "update=none needs rigid bodies; body %d deforms", b);
         }

@@ -146,7 +146,7 @@ Pair<BV>::Pair(const mote_setup *setup, const Options &options_)
       tolerance(setup->tolerance * scale)
 {
     for (int b = 0; b < 2; ++b) {
-        moves[b] = Kind<BV>::oriented && setup->body[b]->field->count == 0;
+        moves[b] = Kind<BV>::oriented && mote_body_is_rigid(setup->body[b]);
         build(b, setup->body[b]->mesh);
     }
 }
