@@ -95,20 +95,8 @@ mote_status move(void *state, uint32_t body)
 {
     return mote_fcl::guard([&] {
         FclBodies &s = *static_cast<FclBodies *>(state);
-        Model &m = s.model(body);
-        const uint32_t count = static_cast<uint32_t>(m.num_vertices);
-        mote_status status =
-            mote_input_check_vertices(s.written.data(), count, static_cast<int>(body));
-        if (status != MOTE_OK)
-            return status;
-        int code = m.beginReplaceModel();
-        for (uint32_t i = 0; i < count && code == fcl::BVH_OK; ++i)
-            code = m.replaceVertex(mote_fcl::to_fcl(s.written[i], s.scale));
-        if (code == fcl::BVH_OK)
-            code = m.endReplaceModel(true, true);
-        if (code != fcl::BVH_OK)
-            return mote_fail(MOTE_ENUMERIC, "FCL could not refit body %u: code %d", body, code);
-        return MOTE_OK;
+        return mote_fcl::replace_vertices(s.model(body), s.written.data(), s.scale,
+                                          static_cast<int>(body), mote_fcl::REFIT_BOTTOM_UP);
     });
 }
 

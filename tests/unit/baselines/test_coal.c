@@ -212,6 +212,15 @@ TEST(what_coal_cannot_answer_is_refused)
     bad = good;
     bad.body[0].pose.translation.x = NAN;
     assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    /* What was refused is no known shape: that it did not change helps nothing. */
+    bad = good;
+    s.world[1][3].y = HUGE_VAL;
+    assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "body 1: vertex 3 is"));
+    bad.body[1].shape_changed = bad.body[1].pose_changed = false;
+    assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    const bool contact = ask_one(&contacts[0], state, scene_next(&s, 1.3, false)).contact;
+    assert_int_equal(contact, scene_truth(&s) <= 0);
     m->destroy(state);
     s.mesh[1]->positions[0].y = HUGE_VAL;
     assert_int_equal(make(&contacts[0], &s, MOTE_ASK_CONTACT, 0, &state), MOTE_EINVAL);
