@@ -1,7 +1,7 @@
 /* The trees of aabb-tree for several bodies. */
 #include "baselines/aabb_tree.h"
 #include "baselines/body_trees.h"
-#include "baselines/input.h"
+#include "baselines/float_positions.h"
 
 #include <stdlib.h>
 
@@ -10,7 +10,6 @@
 typedef struct served {
     mote_box_tree tree;
     mote_vec3 *vertices;
-    float coordinate_max;
 } served;
 
 typedef struct shape_trees {
@@ -127,19 +126,13 @@ static mote_status move(void *state, uint32_t body)
 {
     aabb_bodies *s = state;
     served *t = tree_of(s, body);
-    const float coordinate_max =
-        mote_box_tree_move(&t->tree, t->vertices, mote_vec3_make(0, 0, 0), s->scale);
-    if (!isfinite(coordinate_max)) {
-        mote_status status =
-            mote_input_check_vertices(t->vertices, t->tree.mesh->vertex_count, (int)body);
-        if (status != MOTE_OK)
-            return status;
-        return mote_fail(MOTE_EINVAL,
-                         "body %u is more than 1e38 L away; its distance must be below that",
-                         body);
-    }
-    s->coordinate_max = coordinate_max > s->coordinate_max ? coordinate_max : s->coordinate_max;
-    return MOTE_OK;
+    float most;
+    const mote_status status =
+        mote_float_positions(t->tree.position, t->vertices, t->tree.mesh->vertex_count,
+                             mote_vec3_make(0, 0, 0), s->scale, (int)body, &most);
+    if (status == MOTE_OK)
+        s->coordinate_max = most > s->coordinate_max ? most : s->coordinate_max;
+    return status;
 }
 
 static mote_status refit(void *state)
