@@ -1,7 +1,7 @@
 /* The trees of aabb-tree for several bodies. */
 #include "baselines/aabb_tree.h"
 #include "baselines/body_trees.h"
-#include "baselines/input.h"
+#include "baselines/float_positions.h"
 
 #include <stdlib.h>
 
@@ -10,7 +10,6 @@
 typedef struct served {
     mote_box_tree tree;
     mote_vec3 *vertices;
-    float coordinate_max;
 } served;
 
 typedef struct shape_trees {
@@ -46,35 +45,6 @@ static void destroy(void *state)
     free(s);
 }
 
-static mote_status create(const mote_body_trees_setup *setup, void **state)
-{
-    aabb_bodies *s = calloc(1, sizeof *s);
-    if (!s)
-        return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
-    s->setup = *setup;
-    s->scale = ldexp(1, -ilogb(setup->length));
-    s->shapes = calloc(setup->shape_count, sizeof *s->shapes);
-    s->place = calloc(setup->body_count, sizeof *s->place);
-    mote_status status = MOTE_OK;
-    if (!s->shapes || !s->place)
-        status = mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
-    for (uint32_t i = 0; i < setup->shape_count && status == MOTE_OK; ++i)
-        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i], false);
-    if (status == MOTE_OK)
-        *state = s;
-    else
-        destroy(s);
-    return status;
-}
-
-static void begin(void *state)
-{
-    aabb_bodies *s = state;
-    s->coordinate_max = 0;
-    for (uint32_t i = 0; i < s->setup.shape_count; ++i)
-        s->shapes[i].used = 0;
-}
-
 static mote_status add_tree(shape_trees *shape)
 {
     if (shape->count == shape->room) {
@@ -102,6 +72,37 @@ static mote_status add_tree(shape_trees *shape)
     return MOTE_OK;
 }
 
+static mote_status create(const mote_body_trees_setup *setup, void **state)
+{
+    aabb_bodies *s = calloc(1, sizeof *s);
+    if (!s)
+        return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
+    s->setup = *setup;
+    s->scale = ldexp(1, -ilogb(setup->length));
+    s->shapes = calloc(setup->shape_count, sizeof *s->shapes);
+    s->place = calloc(setup->body_count, sizeof *s->place);
+    mote_status status = MOTE_OK;
+    if (!s->shapes || !s->place)
+        status = mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
+    for (uint32_t i = 0; i < setup->shape_count && status == MOTE_OK; ++i)
+        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i], false);
+    for (uint32_t i = 0; setup->every && i < setup->body_count && status == MOTE_OK; ++i)
+        status = add_tree(&s->shapes[setup->shape_of[i]]);
+    if (status == MOTE_OK)
+        *state = s;
+    else
+        destroy(s);
+    return status;
+}
+
+static void begin(void *state)
+{
+    aabb_bodies *s = state;
+    s->coordinate_max = 0;
+    for (uint32_t i = 0; i < s->setup.shape_count; ++i)
+        s->shapes[i].used = 0;
+}
+
 static served *tree_of(const aabb_bodies *s, uint32_t body)
 {
     return &s->shapes[s->setup.shape_of[body]].trees[s->place[body]];
@@ -125,19 +126,13 @@ static mote_status move(void *state, uint32_t body)
 {
     aabb_bodies *s = state;
     served *t = tree_of(s, body);
-    const float coordinate_max =
-        mote_box_tree_move(&t->tree, t->vertices, mote_vec3_make(0, 0, 0), s->scale);
-    if (!isfinite(coordinate_max)) {
-        mote_status status =
-            mote_input_check_vertices(t->vertices, t->tree.mesh->vertex_count, (int)body);
-        if (status != MOTE_OK)
-            return status;
-        return mote_fail(MOTE_EINVAL,
-                         "body %u is more than 1e38 L away; its distance must be below that",
-                         body);
-    }
-    s->coordinate_max = coordinate_max > s->coordinate_max ? coordinate_max : s->coordinate_max;
-    return MOTE_OK;
+    float most;
+    const mote_status status =
+        mote_float_positions(t->tree.position, t->vertices, t->tree.mesh->vertex_count,
+                             mote_vec3_make(0, 0, 0), s->scale, (int)body, &most);
+    if (status == MOTE_OK)
+        s->coordinate_max = most > s->coordinate_max ? most : s->coordinate_max;
+    return status;
 }
 
 static mote_status refit(void *state)

@@ -3,6 +3,7 @@
    with the last frame's closest pair of triangles as the first bound. */
 #include "baselines/aabb_tree.h"
 #include "baselines/box_tree.h"
+#include "baselines/float_positions.h"
 #include "baselines/input.h"
 #include "core/body/sample_split.h"
 #include "baselines/wide_triangle.h"
@@ -26,19 +27,14 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
                MOTE_BUILD_HELP},
 };
 
-/* Bodies farther from the origin than this times L get a new origin. */
-#define FAR_FROM_ORIGIN 8
-
 /* Pairs of nodes on the stack: opening one node replaces a pair by at most eight. */
 #define STACK (MOTE_BOX_WIDTH * 2 * MOTE_BOX_LEVELS)
 
 typedef struct tree_state {
     mote_setup setup;
     bool seeded, wide;
-    double scale; /* brings L near 1: a power of two */
-    mote_vec3 origin;
+    mote_float_pair places;
     float coordinate_max; /* largest absolute coordinate in either tree */
-    bool placed;          /* false before the first frame */
     mote_box_tree tree[2];
     uint32_t last[2]; /* the last query's triangles */
     bool has_last;
@@ -108,9 +104,12 @@ static mote_status create(const mote_setup *setup, void **state)
     s->setup = *setup;
     s->seeded = setup->values[SEED] > 0;
     s->wide = setup->values[ARITHMETIC] > 0;
-    s->scale = ldexp(1, -ilogb(setup->length));
-    for (int b = 0; b < 2 && status == MOTE_OK; b++)
+    s->places.scale = ldexp(1, -ilogb(setup->length));
+    for (int b = 0; b < 2 && status == MOTE_OK; b++) {
         status = mote_box_tree_init(&s->tree[b], setup->body[b], setup->values[BUILD] > 0);
+        s->places.position[b] = s->tree[b].position;
+        s->places.count[b] = setup->body[b]->mesh->vertex_count;
+    }
     if (status != MOTE_OK) {
         destroy(s);
         return status;
@@ -119,72 +118,20 @@ static mote_status create(const mote_setup *setup, void **state)
     return MOTE_OK;
 }
 
-/* Converts a body's positions; MOTE_EINVAL if one is not finite. */
-static mote_status move(tree_state *s, const mote_frame *frame, int b)
-{
-    const mote_vec3 *vertices = frame->body[b].vertices;
-    uint32_t count = s->tree[b].mesh->vertex_count;
-    if (!vertices)
-        return mote_input_check_vertices(vertices, count, b);
-    float coordinate_max = mote_box_tree_move(&s->tree[b], vertices, s->origin, s->scale);
-    if (!isfinite(coordinate_max)) {
-        mote_status status = mote_input_check_vertices(vertices, count, b);
-        if (status != MOTE_OK)
-            return status;
-        return mote_fail(MOTE_EINVAL,
-                         "body %d is more than 1e38 L away; its distance must be below that",
-                         b);
-    }
-    s->coordinate_max = coordinate_max > s->coordinate_max ? coordinate_max : s->coordinate_max;
-    return MOTE_OK;
-}
-
-/* Converts the positions of the bodies that changed, or of both relative to a new origin. */
-static mote_status move_changed(tree_state *s, const mote_frame *frame, bool both,
-                                bool moved[2])
-{
-    for (int b = 0; b < 2; b++) {
-        const mote_body_state *body = &frame->body[b];
-        moved[b] = both || body->shape_changed || body->pose_changed;
-        mote_status status = moved[b] ? move(s, frame, b) : MOTE_OK;
-        if (status != MOTE_OK)
-            return status;
-    }
-    return MOTE_OK;
-}
-
 static mote_status update(void *state, const mote_frame *frame)
 {
     tree_state *s = state;
     bool moved[2];
-    mote_status status = MOTE_OK;
-    if (s->placed)
-        status = move_changed(s, frame, false, moved);
-    if (status == MOTE_OK && (!s->placed || s->coordinate_max > FAR_FROM_ORIGIN)) {
-        if (!frame->body[0].vertices)
-            return mote_input_check_vertices(NULL, 0, 0);
-        s->origin = frame->body[0].vertices[0];
-        s->coordinate_max = 0;
-        status = move_changed(s, frame, true, moved);
-    }
-    s->placed = status == MOTE_OK;
-    for (int b = 0; b < 2 && s->placed; b++) {
+    const mote_status status = mote_float_pair_update(&s->places, frame, moved);
+    if (status != MOTE_OK)
+        return status;
+    const float *most = s->places.coordinate_max;
+    s->coordinate_max = most[0] > most[1] ? most[0] : most[1];
+    for (int b = 0; b < 2; b++) {
         if (moved[b])
             mote_box_tree_refit(&s->tree[b], s->coordinate_max);
     }
-    return status;
-}
-
-static inline float smallest(float a, float b, float c)
-{
-    a = b < a ? b : a;
-    return c < a ? c : a;
-}
-
-static inline float largest(float a, float b, float c)
-{
-    a = b > a ? b : a;
-    return c > a ? c : a;
+    return MOTE_OK;
 }
 
 static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[3])
@@ -197,12 +144,12 @@ static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[
 /* Updates the limit and the direction after a new best pair, or the first bound. */
 static void set_limits(search *q)
 {
-    double scale = q->state->scale, distance = sqrt(q->squared) * scale;
+    double scale = q->state->places.scale, distance = sqrt(q->squared) * scale;
     double limit = 4 * q->squared * scale * scale * (1 + 0x1p-20);
     q->limit =
         limit < 1e38 ? (float)limit + 0x1p-126f : HUGE_VALF; /* above 0: boxes that meet */
     q->distance = distance < 1e38 ? (float)(distance * (1 + 0x1p-20)) +
-                                        mote_box_margin(q->state->coordinate_max)
+                                        mote_float_margin(q->state->coordinate_max)
                                   : HUGE_VALF;
     mote_vec3 u = mote_sub(q->q, q->p);
     double length = mote_length(u), inverse = length > 0 ? 1 / length : 0;
@@ -248,13 +195,14 @@ static inline void view_triangle(leaf_view *view, int b, uint32_t i, const float
 {
     float x[3];
     for (int k = 0; k < 3; k++) {
-        float low = smallest(p[0][k], p[1][k], p[2][k]),
-              high = largest(p[0][k], p[1][k], p[2][k]);
+        float low = mote_float_smallest(p[0][k], p[1][k], p[2][k]),
+              high = mote_float_largest(p[0][k], p[1][k], p[2][k]);
         view->boxes.centre[k][i] = 0.5f * (low + high);
         view->boxes.half[k][i] = 0.5f * (high - low) + margin;
         x[k] = p[k][0] * u[0] + p[k][1] * u[1] + p[k][2] * u[2];
     }
-    view->extent[i] = b == 0 ? largest(x[0], x[1], x[2]) : smallest(x[0], x[1], x[2]);
+    view->extent[i] =
+        b == 0 ? mote_float_largest(x[0], x[1], x[2]) : mote_float_smallest(x[0], x[1], x[2]);
 }
 
 /* The view of a leaf of body b; often it is the last one used. */
@@ -268,7 +216,7 @@ static const leaf_view *view_leaf(search *q, int b, uint32_t leaf)
     view->leaf = leaf;
     view->improvements = q->improvements;
     view->count = count < MOTE_BOX_LEAF ? count : MOTE_BOX_LEAF;
-    float margin = mote_box_margin(q->state->coordinate_max);
+    float margin = mote_float_margin(q->state->coordinate_max);
     for (uint32_t i = 0; i < view->count; i++) {
         const uint32_t *t = tree->mesh->triangles[tree->order[first + i]];
         const float *corner[3] = {tree->position[t[0]], tree->position[t[1]],
@@ -369,6 +317,10 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     if (s->seeded && s->has_last)
         measure(&q, s->last[0], s->last[1]);
     traverse(&q);
+    /* Farther apart than floats can square (1e19 L): to the rounding of such distances, any
+       pair is as near as any other. */
+    if (q.improvements == 0 && isinf(q.limit))
+        measure(&q, 0, 0);
     if (q.improvements > 0) {
         s->has_last = true;
         s->last[0] = q.triangle[0];
@@ -390,9 +342,8 @@ mote_status mote_aabb_pair_query(mote_aabb_pair *pair, mote_answer *answer)
 {
     tree_state state = {.setup = {.ask = pair->ask, .tolerance = pair->tolerance},
                         .seeded = true,
-                        .scale = pair->scale,
+                        .places = {.scale = pair->scale},
                         .coordinate_max = pair->coordinate_max,
-                        .placed = true,
                         .tree = {*pair->tree[0], *pair->tree[1]},
                         .last = {pair->last[0], pair->last[1]},
                         .has_last = pair->has_last};

@@ -1,7 +1,10 @@
 /* Baselines for several bodies: a tree for each body that is in a pair, refitted to the body's
    deformed vertices once in each step, however many pairs the body is in. There are two kinds:
    FCL's AABB models, and those of aabb-tree. Models of a shape are built once and reused for
-   any body of that shape; a body in no pair has none. */
+   any body of that shape; a body in no pair has none.
+
+   Building them is timed for no step, as the trees of a pair are built before anything is
+   timed: an application builds a body's tree when it makes the body. */
 #ifndef MOTE_BASELINES_BODY_TREES_H
 #define MOTE_BASELINES_BODY_TREES_H
 
@@ -20,6 +23,7 @@ typedef struct mote_body_trees_setup {
     double length; /* L of the scene */
     mote_ask ask;
     double tolerance; /* absolute */
+    bool every;       /* every body has a tree in every step */
 } mote_body_trees_setup;
 
 /* What a pair keeps between queries. Zero-initialise. */
@@ -33,7 +37,8 @@ typedef struct mote_body_trees_memory {
 typedef struct mote_body_trees_kind {
     const char *name;
 
-    /* MOTE_EINVAL for shapes that the library does not accept, MOTE_ENOMEM. */
+    /* Builds the trees of all bodies if each will have one in every step. MOTE_EINVAL for
+       shapes that the library does not accept, MOTE_ENOMEM. */
     mote_status (*create)(const mote_body_trees_setup *setup, void **state);
     void (*destroy)(void *state); /* NULL is allowed */
 
@@ -41,8 +46,8 @@ typedef struct mote_body_trees_kind {
     void (*begin)(void *state);
 
     /* Gives body a tree; *vertices is where its world positions go, valid until the next call
-       of room for FCL's, until begin for aabb-tree's. Allocates where more trees of the shape
-       are needed than ever before. */
+       of room for FCL's, until begin for aabb-tree's. Builds one where more trees of the shape
+       are needed than ever before; not timed. */
     mote_status (*room)(void *state, uint32_t body, mote_vec3 **vertices);
 
     /* Uses the positions that were written. MOTE_EINVAL where one is not finite. */

@@ -1,5 +1,6 @@
 #include "baselines/box_tree.h"
 
+#include "baselines/float_positions.h"
 #include "core/base/clones.h"
 #include "core/body/leaf_order.h"
 
@@ -111,25 +112,6 @@ static inline float larger(float a, float b)
     return a > b ? a : b;
 }
 
-MOTE_CLONES
-float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
-                         double scale)
-{
-    float coordinate_max[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, 0};
-    for (uint32_t i = 0; i < tree->mesh->vertex_count; i++) {
-        float p[4] = {(float)((world[i].x - origin.x) * scale),
-                      (float)((world[i].y - origin.y) * scale),
-                      (float)((world[i].z - origin.z) * scale), 0};
-        for (int k = 0; k < 4; k++) {
-            tree->position[i][k] = p[k];
-            coordinate_max[k] = larger(fabsf(p[k]), coordinate_max[k]);
-            bad[k] += p[k] - p[k];
-        }
-    }
-    return larger(larger(coordinate_max[0], coordinate_max[1]), coordinate_max[2]) +
-           (bad[0] + bad[1] + bad[2]);
-}
-
 /* Writes the box of leaf i to its lane. */
 static inline void refit_leaf(mote_box_tree *tree, uint32_t leaf, float margin)
 {
@@ -189,7 +171,7 @@ static void empty_lanes(mote_box_tree *tree, uint32_t level, uint32_t nodes)
 MOTE_CLONES
 void mote_box_tree_refit(mote_box_tree *tree, float coordinate_max)
 {
-    float margin = mote_box_margin(coordinate_max);
+    float margin = mote_float_margin(coordinate_max);
     for (uint32_t leaf = 0; leaf < tree->leaves; leaf++)
         refit_leaf(tree, leaf, margin);
     empty_lanes(tree, tree->height - 1, tree->leaves);

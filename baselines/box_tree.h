@@ -38,7 +38,7 @@ typedef struct mote_box_tree {
     uint32_t *order;      /* [triangle_count] */
     uint32_t *leaf_start; /* [leaves + 1] */
     uint32_t *leaf_vertex;
-    float (*position)[4]; /* [vertex_count]: scale * (world - origin), and 0 */
+    float (*position)[4]; /* [vertex_count]: set by mote_float_positions */
     mote_box root;
 } mote_box_tree;
 
@@ -49,20 +49,9 @@ mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body, bool 
 
 void mote_box_tree_free(mote_box_tree *tree);
 
-/* Sets position from world[vertex_count]. Returns the largest absolute coordinate, or a value
-   that is not finite if one of world is not. */
-float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
-                         double scale);
-
 /* Sets all boxes from position. coordinate_max is the largest coordinate of both trees that
    will be compared. Cost: about 2 ns a triangle. */
 void mote_box_tree_refit(mote_box_tree *tree, float coordinate_max);
-
-/* A bound on the rounding errors of positions, sums of positions, and their differences. */
-static inline float mote_box_margin(float coordinate_max)
-{
-    return 0x1p-20f * coordinate_max;
-}
 
 static inline mote_box mote_box_lane(const mote_box_block *block, uint32_t lane)
 {

@@ -20,10 +20,10 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
 #define BLOCK 64
 
 /* Boxes in floats, in the unit of the pair and relative to the frame's origin. Halves are
-   rounded up so far that the rounding of a comparison never makes a gap too large. The count is
-   padded to whole blocks with boxes that are infinitely far away. */
+   rounded up so far that the rounding of a comparison never makes a gap too large. The boxes
+   are padded to whole blocks with such that are infinitely far away. */
 typedef struct box_list {
-    uint32_t blocks;
+    uint32_t count, blocks;
     float *centre[3], *half[3]; /* [BLOCK * blocks] */
 } box_list;
 
@@ -58,6 +58,7 @@ static void destroy(void *state)
 
 static mote_status make_boxes(box_list *boxes, uint32_t triangles)
 {
+    boxes->count = triangles;
     boxes->blocks = (triangles + BLOCK - 1) / BLOCK;
     size_t stride = (size_t)boxes->blocks * BLOCK;
     float *memory = malloc(6 * stride * sizeof *memory);
@@ -148,9 +149,10 @@ static mote_status update(void *state, const mote_frame *frame)
     return MOTE_OK;
 }
 
-/* Lists in near the boxes of a block that are nearer to box i of a than the bound; returns how
-   many there are. gap + |gap| is 2 max(gap, 0), so that four times the squared distances are
-   compared. */
+/* Lists in near the boxes of a block that are at most as far from box i of a as the bound;
+   returns how many there are. gap + |gap| is 2 max(gap, 0), so that four times the squared
+   distances are compared. A bound that floats cannot square is infinite: then the boxes that
+   pad the last block would be near, too. */
 MOTE_CLONES
 static uint32_t near_boxes(const box_list *a, uint32_t i, const box_list *b, uint32_t block,
                            float bound_squared, uint32_t near[BLOCK])
@@ -173,8 +175,9 @@ static uint32_t near_boxes(const box_list *a, uint32_t i, const box_list *b, uin
     }
     if (!any)
         return 0;
+    const uint32_t triangles = b->count - block * BLOCK;
     uint32_t count = 0;
-    for (uint32_t k = 0; k < BLOCK; k++) {
+    for (uint32_t k = 0; k < BLOCK && k < triangles; k++) {
         near[count] = k;
         count += squared[k] <= limit;
     }

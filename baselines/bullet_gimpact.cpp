@@ -8,6 +8,7 @@
    Bullet is normally used, so it is not the default. Bullet's public contactPairTest and its
    closest-point algorithms find no contact between two GImpact meshes, so the algorithm for
    contact points is called. */
+#include "baselines/guard.hpp"
 #include "baselines/physics_engine.h"
 
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -15,7 +16,7 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
-#include <new>
+#include <type_traits>
 #include <vector>
 
 namespace
@@ -61,6 +62,15 @@ class Listener : public btManifoldResult
     bool stop;
 };
 
+/* Bullet may be compiled for floats or doubles. */
+template <class Scalar> mote_status write_vertices(mote_physics *engine, int b, Scalar *to)
+{
+    if constexpr (std::is_same_v<Scalar, float>)
+        return mote_physics_write_floats(engine, b, to);
+    else
+        return mote_physics_write_doubles(engine, b, to);
+}
+
 /* One body in Bullet, which reads vertices and triangles where they lie here. */
 struct Body {
     std::vector<btScalar> vertices; /* 3 a vertex */
@@ -85,7 +95,7 @@ class Pair
 
   private:
     void build(int b);
-    void write_vertex(int b, uint32_t i, mote_vec3 p);
+    mote_status refit(int b);
     void place(int b);
 
     mote_physics engine;
@@ -95,21 +105,12 @@ class Pair
     Body body[2];
 };
 
-void Pair::write_vertex(int b, uint32_t i, mote_vec3 p)
-{
-    btScalar *vertex = &body[b].vertices[3 * static_cast<size_t>(i)];
-    vertex[0] = static_cast<btScalar>(p.x);
-    vertex[1] = static_cast<btScalar>(p.y);
-    vertex[2] = static_cast<btScalar>(p.z);
-}
-
 void Pair::build(int b)
 {
     const mote_mesh *mesh = engine.body[b].mesh;
     Body &made = body[b];
     made.vertices.resize(3 * static_cast<size_t>(mesh->vertex_count));
-    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(b, i, mote_physics_rest(&engine, b, i));
+    write_vertices(&engine, b, made.vertices.data()); /* were checked with the setup */
     made.triangles.reserve(3 * static_cast<size_t>(mesh->triangle_count));
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         for (int k = 0; k < 3; ++k)
@@ -139,19 +140,27 @@ void Pair::place(int b)
     body[b].object.setWorldTransform(btTransform(rotation, translation));
 }
 
+mote_status Pair::refit(int b)
+{
+    const mote_status status = write_vertices(&engine, b, body[b].vertices.data());
+    if (status != MOTE_OK)
+        return status;
+    body[b].shape->postUpdate();  /* its parts no longer fit, */
+    body[b].shape->updateBound(); /* which refits them */
+    return MOTE_OK;
+}
+
 mote_status Pair::update(const mote_frame *frame)
 {
-    mote_status status = mote_physics_frame(&engine, frame);
-    for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
-        if (engine.body[b].refit) {
-            for (uint32_t i = 0; i < engine.body[b].mesh->vertex_count; ++i)
-                write_vertex(b, i, mote_physics_vertex(&engine, b, i));
-            body[b].shape->postUpdate();  /* its parts no longer fit, */
-            body[b].shape->updateBound(); /* which refits them */
-        }
+    for (int b = 0; b < 2; ++b) {
+        mote_status status = mote_physics_follow(&engine, frame, b);
+        if (status == MOTE_OK && engine.body[b].refit)
+            status = refit(b);
+        if (status != MOTE_OK)
+            return status;
         place(b);
     }
-    return status;
+    return MOTE_OK;
 }
 
 void Pair::query(mote_answer *answer)
@@ -160,16 +169,18 @@ void Pair::query(mote_answer *answer)
                                      body[0].object.getWorldTransform(), -1, -1);
     const btCollisionObjectWrapper b(nullptr, body[1].shape.get(), &body[1].object,
                                      body[1].object.getWorldTransform(), -1, -1);
-    btCollisionAlgorithm *algorithm =
-        dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    const auto give_back = [this](btCollisionAlgorithm *used) {
+        used->~btCollisionAlgorithm();
+        dispatcher.freeCollisionAlgorithm(used);
+    };
+    const std::unique_ptr<btCollisionAlgorithm, decltype(give_back)> algorithm(
+        dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS), give_back);
     Listener listener(&a, &b, stop);
     const btDispatcherInfo info;
     try {
         algorithm->processCollision(&a, &b, info, &listener);
     } catch (const FirstContact &) {
     }
-    algorithm->~btCollisionAlgorithm();
-    dispatcher.freeCollisionAlgorithm(algorithm);
     answer->has_contact = true;
     answer->contact = listener.contact;
     answer->counters.triangle_tests = listener.points;
@@ -181,6 +192,11 @@ mote_traits traits(const double *values)
                                values[POSITIONS] > 0);
 }
 
+template <class Body> mote_status guard(Body &&body) noexcept
+{
+    return mote_guard("Bullet", body);
+}
+
 mote_status create(const mote_setup *setup, void **state)
 {
     mote_physics engine;
@@ -188,12 +204,10 @@ mote_status create(const mote_setup *setup, void **state)
     const mote_status status = mote_physics_begin(&engine, setup, mode, "Bullet's GImpact");
     if (status != MOTE_OK)
         return status;
-    try {
+    return guard([&] {
         *state = new Pair(engine, setup->values[STOP] > 0);
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "no memory for bullet-gimpact");
-    }
-    return MOTE_OK;
+        return MOTE_OK;
+    });
 }
 
 void destroy(void *state)
@@ -203,13 +217,15 @@ void destroy(void *state)
 
 mote_status update(void *state, const mote_frame *frame)
 {
-    return static_cast<Pair *>(state)->update(frame);
+    return guard([&] { return static_cast<Pair *>(state)->update(frame); });
 }
 
 mote_status query(void *state, const mote_frame *, mote_answer *answer)
 {
-    static_cast<Pair *>(state)->query(answer);
-    return MOTE_OK;
+    return guard([&] {
+        static_cast<Pair *>(state)->query(answer);
+        return MOTE_OK;
+    });
 }
 
 } // namespace

@@ -39,7 +39,7 @@ typedef struct ccd_state {
     mote_convex_parts *parts[2];
     uint32_t vertex_count[2];
     part_pair *pairs;
-    uint32_t pair_count;
+    size_t pair_count;
     double scale;     /* brings L into [1, 2): a power of two */
     double tolerance; /* scaled */
     mote_ask ask;
@@ -100,13 +100,14 @@ static mote_status build(ccd_state *s, const mote_setup *setup)
             return status;
         s->vertex_count[b] = setup->body[b]->mesh->vertex_count;
     }
-    s->pair_count = s->parts[0]->count * s->parts[1]->count;
+    const uint32_t columns = s->parts[1]->count;
+    s->pair_count = (size_t)s->parts[0]->count * columns;
     s->pairs = calloc(s->pair_count, sizeof *s->pairs);
     if (!s->pairs)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u pairs of parts", s->pair_count);
-    for (uint32_t k = 0; k < s->pair_count; ++k) {
-        s->pairs[k].part[0] = k / s->parts[1]->count;
-        s->pairs[k].part[1] = k % s->parts[1]->count;
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu pairs of parts", s->pair_count);
+    for (size_t k = 0; k < s->pair_count; ++k) {
+        s->pairs[k].part[0] = (uint32_t)(k / columns);
+        s->pairs[k].part[1] = (uint32_t)(k % columns);
     }
     return MOTE_OK;
 }
@@ -157,7 +158,7 @@ static int compare_pairs(const void *left, const void *right)
 
 static void sort_pairs(ccd_state *s, const mote_frame *frame)
 {
-    for (uint32_t k = 0; k < s->pair_count; ++k) {
+    for (size_t k = 0; k < s->pair_count; ++k) {
         mote_vec3 centre[2];
         for (int b = 0; b < 2; ++b)
             centre[b] = mote_convex_part_centre(&s->parts[b]->part[s->pairs[k].part[b]],
@@ -239,7 +240,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     sort_pairs(s, frame);
     double best = HUGE_VAL;
     bool contact_only = s->ask == MOTE_ASK_CONTACT;
-    for (uint32_t k = 0; k < s->pair_count; ++k) {
+    for (size_t k = 0; k < s->pair_count; ++k) {
         convex both[2];
         for (int b = 0; b < 2; ++b)
             both[b] = (convex){&s->parts[b]->part[s->pairs[k].part[b]], frame->body[b].vertices,

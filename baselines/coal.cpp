@@ -6,10 +6,7 @@
    boxes is taken from all three axes. AABB and RSS are refitted bottom-up; the others top-down,
    since Coal's sum of oriented boxes leaves triangles outside (datasets/defects.md). */
 #include "baselines/coal_pair.hpp"
-
-#include <exception>
-#include <memory>
-#include <new>
+#include "baselines/guard.hpp"
 
 namespace
 {
@@ -58,18 +55,9 @@ Options read_options(const double *values)
     return options;
 }
 
-/* Runs body and turns exceptions into a status, since none may leave a C function. */
 template <class Body> mote_status guard(Body &&body) noexcept
 {
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "Coal ran out of memory");
-    } catch (const std::exception &error) {
-        return mote_fail(MOTE_ENUMERIC, "Coal: %s", error.what());
-    } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "Coal threw an unknown exception");
-    }
+    return mote_guard("Coal", body);
 }
 
 template <class BV> struct Adapter {
@@ -104,7 +92,7 @@ template <class BV> struct Adapter {
             return mote_fail(MOTE_EUNSUPPORTED,
                              "update=none needs a volume that Coal transforms in place");
         for (int b = 0; b < 2; ++b) {
-            if (setup->body[b]->field->count > 0)
+            if (!mote_body_is_rigid(setup->body[b]))
                 return mote_fail(MOTE_EUNSUPPORTED,
                                  "update=none needs rigid bodies; body %d deforms", b);
         }

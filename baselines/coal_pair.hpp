@@ -109,7 +109,7 @@ template <class BV> class Pair
 
   private:
     void build(int b, const mote_mesh *mesh);
-    void replace(int b, const mote_vec3 *vertices);
+    mote_status replace(int b, const mote_vec3 *vertices);
     void corners(int b, mote_vec3 corner[3]) const;
     double seed(mote_vec3 witness[2]) const;
     void collide(mote_answer *answer);
@@ -122,6 +122,7 @@ template <class BV> class Pair
     mote_ask ask;
     double scale, tolerance;   /* tolerance is scaled */
     bool moves[2];             /* Coal moves the body in place */
+    bool spoilt[2] = {};       /* the last vertices were refused */
     int closest[2] = {-1, -1}; /* the last query's triangles; -1: none yet */
 };
 
@@ -146,7 +147,7 @@ Pair<BV>::Pair(const mote_setup *setup, const Options &options_)
       tolerance(setup->tolerance * scale)
 {
     for (int b = 0; b < 2; ++b) {
-        moves[b] = Kind<BV>::oriented && setup->body[b]->field->count == 0;
+        moves[b] = Kind<BV>::oriented && mote_body_is_rigid(setup->body[b]);
         build(b, setup->body[b]->mesh);
     }
 }
@@ -166,13 +167,25 @@ template <class BV> void Pair<BV>::build(int b, const mote_mesh *mesh)
     model[b].endModel();
 }
 
-template <class BV> void Pair<BV>::replace(int b, const mote_vec3 *vertices)
+/* Checks the vertices in the pass that hands them to Coal. */
+template <class BV> mote_status Pair<BV>::replace(int b, const mote_vec3 *vertices)
 {
     coal::BVHModel<BV> &m = model[b];
+    if (!vertices)
+        return mote_input_check_vertices(vertices, m.num_vertices, b);
     m.beginReplaceModel();
-    for (unsigned i = 0; i < m.num_vertices; ++i)
+    double zero = 0;
+    for (unsigned i = 0; i < m.num_vertices; ++i) {
+        zero += mote_input_zero(vertices[i]);
         m.replaceVertex(to_coal(vertices[i], scale));
+    }
+    spoilt[b] = std::isnan(zero);
+    if (spoilt[b]) {
+        m.build_state = coal::BVH_BUILD_STATE_PROCESSED; /* so that it can begin again */
+        return mote_input_check_vertices(vertices, m.num_vertices, b);
+    }
     m.endReplaceModel(options.update != REBUILD, options.update == REFIT_BOTTOM_UP);
+    return MOTE_OK;
 }
 
 template <class BV> mote_status Pair<BV>::update(const mote_frame *frame)
@@ -187,10 +200,9 @@ template <class BV> mote_status Pair<BV>::update(const mote_frame *frame)
                     rotation(i, j) = state.pose.rotation.m[i][j];
             }
             transform[b].setTransform(rotation, to_coal(state.pose.translation, scale));
-        } else if (status == MOTE_OK && (state.shape_changed || state.pose_changed)) {
-            status = mote_input_check_vertices(state.vertices, model[b].num_vertices, b);
-            if (status == MOTE_OK)
-                replace(b, state.vertices);
+        } else if (status == MOTE_OK &&
+                   (spoilt[b] || state.shape_changed || state.pose_changed)) {
+            status = replace(b, state.vertices);
         }
         if (status != MOTE_OK)
             return status;

@@ -60,13 +60,10 @@ mote_status mote_input_check_vertices(const mote_vec3 *vertices, uint32_t count,
     if (!vertices)
         return mote_fail(MOTE_EINVAL,
                          "body %d: the frame has no vertices; this method needs them", body);
-    /* x - x is 0 for a finite x and NaN else: one comparison in the usual case. */
-    double sum = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        mote_vec3 v = vertices[i];
-        sum += (v.x - v.x) + (v.y - v.y) + (v.z - v.z);
-    }
-    if (sum == 0)
+    double zero = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        zero += mote_input_zero(vertices[i]);
+    if (!isnan(zero))
         return MOTE_OK;
     uint32_t i = 0;
     while (is_finite(vertices[i]))

@@ -20,6 +20,14 @@ mote_status mote_input_check(const mote_setup *setup);
    the count positions is not finite; the text names it. Cost O(count), about 1 ns each. */
 mote_status mote_input_check_vertices(const mote_vec3 *vertices, uint32_t count, int body);
 
+/* The same check within a pass that reads the vertices anyway: the sum of these numbers is 0
+   where all are finite, and NaN where one is not. Only then is mote_input_check_vertices
+   called, which says what is wrong. */
+static inline double mote_input_zero(mote_vec3 vertex)
+{
+    return (vertex.x - vertex.x) + (vertex.y - vertex.y) + (vertex.z - vertex.z);
+}
+
 /* Checks one pose of body 0 or 1: MOTE_EINVAL unless every number is finite. */
 mote_status mote_input_check_pose(const mote_pose *pose, int body);
 

@@ -66,15 +66,11 @@ static void destroy(void *state)
     free(s);
 }
 
-static void write_vertex(ode_body *body, uint32_t i, mote_vec3 p)
+static mote_status write_vertices(ode_state *s, int b)
 {
-    const double numbers[3] = {p.x, p.y, p.z};
-    for (int k = 0; k < 3; ++k) {
-        if (body->doubles)
-            body->doubles[i][k] = numbers[k];
-        else
-            body->floats[i][k] = (float)numbers[k];
-    }
+    const ode_body *body = &s->body[b];
+    return body->doubles ? mote_physics_write_doubles(&s->engine, b, body->doubles[0])
+                         : mote_physics_write_floats(&s->engine, b, body->floats[0]);
 }
 
 static void build_tree(const mote_mesh *mesh, ode_body *body)
@@ -103,8 +99,9 @@ static mote_status create_body(ode_state *s, int b, bool single)
     body->triangles = calloc(mesh->triangle_count, sizeof body->triangles[0]);
     if ((!body->floats && !body->doubles) || !body->triangles)
         return mote_fail(MOTE_ENOMEM, "no memory for body %d in ODE", b);
-    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(body, i, mote_physics_rest(&s->engine, b, i));
+    const mote_status status = write_vertices(s, b);
+    if (status != MOTE_OK)
+        return status;
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         for (int k = 0; k < 3; ++k)
             body->triangles[i][k] = mesh->triangles[i][k];
@@ -137,37 +134,41 @@ static mote_status create(const mote_setup *setup, void **state)
     return status;
 }
 
-static void refit(ode_state *s, int b)
+static mote_status refit(ode_state *s, int b)
 {
-    const mote_mesh *mesh = s->engine.body[b].mesh;
     ode_body *body = &s->body[b];
-    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(body, i, mote_physics_vertex(&s->engine, b, i));
+    const mote_status status = write_vertices(s, b);
+    if (status != MOTE_OK)
+        return status;
     if (s->rebuild)
-        build_tree(mesh, body);
+        build_tree(s->engine.body[b].mesh, body);
     else
         dGeomTriMeshDataUpdate(body->data);
     dGeomTriMeshSetData(body->mesh, body->data); /* else the mesh keeps its old box */
+    return MOTE_OK;
+}
+
+static void place(const mote_physics_body *body, dGeomID mesh)
+{
+    dMatrix3 rotation = {0};
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            rotation[4 * i + j] = body->rotation.m[i][j];
+    }
+    dGeomSetRotation(mesh, rotation);
+    dGeomSetPosition(mesh, body->translation.x, body->translation.y, body->translation.z);
 }
 
 static mote_status update(void *state, const mote_frame *frame)
 {
     ode_state *s = state;
-    mote_status status = mote_physics_frame(&s->engine, frame);
-    if (status != MOTE_OK)
-        return status;
     for (int b = 0; b < 2; ++b) {
-        const mote_physics_body *body = &s->engine.body[b];
-        if (body->refit)
-            refit(s, b);
-        dMatrix3 rotation = {0};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j)
-                rotation[4 * i + j] = body->rotation.m[i][j];
-        }
-        dGeomSetRotation(s->body[b].mesh, rotation);
-        dGeomSetPosition(s->body[b].mesh, body->translation.x, body->translation.y,
-                         body->translation.z);
+        mote_status status = mote_physics_follow(&s->engine, frame, b);
+        if (status == MOTE_OK && s->engine.body[b].refit)
+            status = refit(s, b);
+        if (status != MOTE_OK)
+            return status;
+        place(&s->engine.body[b], s->body[b].mesh);
     }
     return MOTE_OK;
 }

@@ -31,7 +31,7 @@ typedef struct mote_physics_body {
     bool fitted;               /* there was a refit */
     mote_mat3 fitted_rotation; /* at that refit */
     mote_vec3 moved_centre;    /* where the centre is in this frame; world */
-    const mote_vec3 *vertices; /* of this frame; NULL for a rigid body */
+    const mote_vec3 *vertices; /* at rest; from its first refit on, those of the last one */
     mote_mat3 rotation;        /* what the engine is to apply in this frame, */
     mote_vec3 translation;     /* in its unit */
 } mote_physics_body;
@@ -51,14 +51,18 @@ mote_traits mote_physics_traits(mote_physics_update update, bool given);
 mote_status mote_physics_begin(mote_physics *engine, const mote_setup *setup,
                                mote_physics_update update, const char *name);
 
-/* Sets what a frame changes: refit, moved_centre, vertices, rotation, translation. MOTE_EINVAL
-   where a pose or a vertex is not finite. Cost O(1), O(v) for a body to refit. */
-mote_status mote_physics_frame(mote_physics *engine, const mote_frame *frame);
+/* Sets what a frame changes of body b: refit, moved_centre, vertices, rotation, translation.
+   For body 0 before body 1, whose translation is relative to it. MOTE_EINVAL where the pose is
+   not finite, or where a body to refit has no vertices; the next frame then refits both bodies.
+   Cost O(1). */
+mote_status mote_physics_follow(mote_physics *engine, const mote_frame *frame, int b);
 
-/* Vertex i of body b in the engine's unit: at rest, and in the frame of the last
-   mote_physics_frame. */
-mote_vec3 mote_physics_rest(const mote_physics *engine, int b, uint32_t i);
-mote_vec3 mote_physics_vertex(const mote_physics *engine, int b, uint32_t i);
+/* Writes the vertices of body b in the engine's unit to to[3 * vertex_count]: at rest after
+   mote_physics_begin, those of the frame after a mote_physics_follow that set refit. They are
+   checked in the same pass: MOTE_EINVAL where one is not finite; the next frame then refits
+   both bodies. Cost O(v), about 1 ns a vertex. */
+mote_status mote_physics_write_doubles(mote_physics *engine, int b, double *to);
+mote_status mote_physics_write_floats(mote_physics *engine, int b, float *to);
 
 #ifdef __cplusplus
 }

@@ -51,6 +51,7 @@ typedef struct mote_engine_cost {
                            all bodies */
     uint64_t update_ns; /* refits */
     uint64_t query_ns;  /* everything else: answers, and finding near pairs */
+    uint64_t build_ns;  /* part of no other time: building trees of bodies that had none */
     uint64_t bounds_ns; /* part of query_ns: boxes of all bodies from deformed roots */
     uint64_t broad_ns;  /* part of query_ns: near pairs from the boxes */
     size_t pairs, fresh, contacts;

@@ -69,17 +69,33 @@ int __wrap_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vector
                                 : __real_gsl_eigen_symmv(a, values, vectors, work);
 }
 
-/* The C++ ABI names of operator new and std::bad_alloc, on systems whose size_t is an unsigned
- * long. */
+/* The C++ ABI names of operator new, new[], new (nothrow)[] and std::bad_alloc, on systems
+   whose size_t is an unsigned long. */
 _Noreturn void _ZSt17__throw_bad_allocv(void);
 void *__real__Znwm(size_t size);
 void *__wrap__Znwm(size_t size);
+void *__real__Znam(size_t size);
+void *__wrap__Znam(size_t size);
+void *__real__ZnamRKSt9nothrow_t(size_t size, const void *nothrow);
+void *__wrap__ZnamRKSt9nothrow_t(size_t size, const void *nothrow);
 
 void *__wrap__Znwm(size_t size)
 {
     if (is_due(&allocations_left))
         _ZSt17__throw_bad_allocv();
     return __real__Znwm(size);
+}
+
+void *__wrap__Znam(size_t size)
+{
+    if (is_due(&allocations_left))
+        _ZSt17__throw_bad_allocv();
+    return __real__Znam(size);
+}
+
+void *__wrap__ZnamRKSt9nothrow_t(size_t size, const void *nothrow)
+{
+    return is_due(&allocations_left) ? NULL : __real__ZnamRKSt9nothrow_t(size, nothrow);
 }
 
 static mote_status make_fields(void *context)
@@ -341,7 +357,8 @@ TEST(scene_query_out_of_memory_keeps_all_states)
     crowd_free(&c);
 }
 
-/* Methods choose their own number of particles, which needs the convex parts of two meshes. */
+/* Methods choose their own number of particles, which needs the convex parts of two meshes. FCL
+   returns codes where its own allocations fail. */
 TEST(methods_when_an_allocation_fails_say_so)
 {
     static const struct {
@@ -351,7 +368,10 @@ TEST(methods_when_an_allocation_fails_say_so)
                  {"particle-paper", ""},
                  {"particle-paper", "n=4,far_cache=0.2,precision=single"},
                  {"certified", "seed=tracked"},
-                 {"brute-force", ""}};
+                 {"brute-force", ""},
+                 {"fcl-aabb", ""},
+                 {"fcl-obbrss", "build=samples"},
+                 {"hybrid-fcl", "n=4"}};
     uint64_t seed = 5;
     test_body b[2];
     test_body_init(&b[0], solid_to_mesh(solid_icosahedron()), 4, &seed);

@@ -56,7 +56,7 @@ static const library libraries[] = {
     {"gsl/gsl_cdf", {"harness/base/statistics.c"}},
     {"meshoptimizer", {"core/parts/parts"}},
     {"bullet/", {"core/parts/parts"}},
-    {"fcl/", {"baselines/fcl_"}},
+    {"fcl/", {"baselines/fcl/"}},
     {"embree", {"baselines/embree_"}},
     {"ode/", {"baselines/ode.c"}},
     {"btBullet", {"baselines/bullet_"}},

@@ -1,6 +1,6 @@
 #include "tests/support/peers/fcl_defects.h"
 
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 #include <fcl/math/motion/interp_motion.h>
 

@@ -118,6 +118,54 @@ TEST(contacts_agree_with_brute_force)
     }
 }
 
+/* Bodies of which only the positions in each frame are known: they move by these, not by their
+   poses, also in volumes that Coal could transform in place. */
+TEST(bodies_of_given_positions_follow_them)
+{
+    if (is_missing())
+        return;
+    mote_field *given = NULL;
+    assert_int_equal(mote_field_create_given(&given), MOTE_OK);
+    for (size_t i = 0; i < ROWS_OF(distances); ++i) {
+        scene s;
+        double values[MOTE_PARAMETERS_MAX];
+        void *state = NULL;
+        scene_init(&s, 14, 9, 1, true);
+        const mote_method *m = method_with(distances[i].method, distances[i].options, values);
+        mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, values);
+        const mote_body known = {.mesh = s.mesh[1], .field = given};
+        setup.body[1] = &known;
+        assert_int_equal(m->create(&setup, &state), MOTE_OK);
+        for (int f = 0; f < 5; ++f) {
+            const double distance =
+                method_answer(m, state, scene_next(&s, 1.3, false)).distance;
+            test_row("%s:%s frame %d", distances[i].method, distances[i].options, f);
+            assert_true(fabs(distance - scene_truth(&s)) <= 1e-12 * s.length);
+        }
+        m->destroy(state);
+        scene_free(&s);
+    }
+    mote_field_destroy(given);
+}
+
+TEST(bodies_of_given_positions_are_not_moved_by_poses_alone)
+{
+    if (is_missing())
+        return;
+    mote_field *given = NULL;
+    assert_int_equal(mote_field_create_given(&given), MOTE_OK);
+    scene s;
+    scene_init(&s, 14, 9, 1, false);
+    s.body[1].field = given;
+    for (size_t i = 0; i < ROWS_OF(rigid); ++i) {
+        void *state = NULL;
+        assert_int_equal(make(&rigid[i], &s, MOTE_ASK_DISTANCE, 0, &state), MOTE_EUNSUPPORTED);
+        assert_non_null(strstr(mote_error_text(), "body 1 deforms"));
+    }
+    mote_field_destroy(given);
+    scene_free(&s);
+}
+
 /* The corrected bound covers three axes, as it should, so fewer boxes are tested. */
 TEST(the_mended_bound_tests_fewer_boxes)
 {
@@ -164,6 +212,15 @@ TEST(what_coal_cannot_answer_is_refused)
     bad = good;
     bad.body[0].pose.translation.x = NAN;
     assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    /* What was refused is no known shape: that it did not change helps nothing. */
+    bad = good;
+    s.world[1][3].y = HUGE_VAL;
+    assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "body 1: vertex 3 is"));
+    bad.body[1].shape_changed = bad.body[1].pose_changed = false;
+    assert_int_equal(m->update(state, &bad), MOTE_EINVAL);
+    const bool contact = ask_one(&contacts[0], state, scene_next(&s, 1.3, false)).contact;
+    assert_int_equal(contact, scene_truth(&s) <= 0);
     m->destroy(state);
     s.mesh[1]->positions[0].y = HUGE_VAL;
     assert_int_equal(make(&contacts[0], &s, MOTE_ASK_CONTACT, 0, &state), MOTE_EINVAL);

@@ -125,6 +125,39 @@ TEST(query_agrees_with_brute_force)
     expect_contacts(0x1p40, 0.05, true, mote_vec3_make(0, 0, 0));
 }
 
+/* One body moves past the other, which rests; then they change places. */
+static void expect_contacts_at_rest(bool deforming)
+{
+    scene s;
+    crowd c;
+    int contacts = 0;
+    scene_init(&s, 14, 9, 1, deforming);
+    crowd_create(&c, &s, 0, deforming);
+    const mote_frame *frame = scene_next(&s, 0, false);
+    crowd_expect(&c, frame, scene_truth(&s) <= 0);
+    for (int f = 0; f < 40; ++f) {
+        const int b = f < 20 ? 1 : 0;
+        mote_body_state *moving = &s.frame.body[b], *still = &s.frame.body[1 - b];
+        moving->pose.translation.x += 0.1 * s.length;
+        moving->pose_changed = true;
+        moving->shape_changed = still->shape_changed = still->pose_changed = false;
+        mote_deform_all(s.deform[b], moving, s.world[b]);
+        ++s.frame.number;
+        const bool contact = scene_truth(&s) <= 0;
+        crowd_expect(&c, frame, contact);
+        contacts += contact;
+    }
+    assert_in_range(contacts, 8, 32);
+    crowd_destroy(&c);
+    scene_free(&s);
+}
+
+TEST(query_with_a_body_at_rest_agrees_with_brute_force)
+{
+    expect_contacts_at_rest(true);
+    expect_contacts_at_rest(false);
+}
+
 TEST(query_far_from_the_origin_agrees_with_brute_force)
 {
     const mote_vec3 away = mote_vec3_make(0x1p20, -0x1p20, 0x1p21);
@@ -202,6 +235,10 @@ TEST(update_with_a_bad_frame_is_refused)
         } else {
             s.world[1][3].y = HUGE_VAL;
             assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
+            /* What was refused is no known shape: that it did not change helps nothing. */
+            frame.body[1].shape_changed = frame.body[1].pose_changed = false;
+            assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
+            frame.body[1].shape_changed = frame.body[1].pose_changed = true;
             frame.body[0].vertices = NULL;
             assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
         }

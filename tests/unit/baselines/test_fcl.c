@@ -365,6 +365,9 @@ TEST(update_with_a_bad_frame_is_refused_and_the_next_good)
         bad = *scene_next(&s, 1.3, false);
         s.world[0][7].x = -HUGE_VAL;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
+        /* What was refused is no known shape: that it did not change helps nothing. */
+        bad.body[0].shape_changed = bad.body[0].pose_changed = false;
+        assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
         bad = *scene_next(&s, 1.3, false);
         bad.body[0].pose.translation.y = (double)NAN;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);

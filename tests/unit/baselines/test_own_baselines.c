@@ -57,6 +57,8 @@ static void check_distance(const variant *v, const scene *s, const mote_answer *
         fail_msg("%s:%s frame %u: %.17g instead of %.17g", v->method, v->options,
                  (unsigned)s->frame.number, a->distance, expected);
     assert_int_equal(a->contact, expected <= 0);
+    assert_true(a->counters.triangle_tests <=
+                1 + (uint64_t)s->mesh[0]->triangle_count * s->mesh[1]->triangle_count);
     double apart = mote_length(mote_sub(a->witness[0], a->witness[1]));
     assert_true(fabs(apart - expected) <= limit);
     for (int b = 0; b < 2; b++)
@@ -105,6 +107,34 @@ TEST(query_far_apart_equals_all_pairs)
     scene s;
     scene_init(&s, 11, 8, 1, true);
     run_distance(&s, 20, 40, false);
+    scene_free(&s);
+}
+
+/* So far that floats cannot hold the square of the distance. (140 triangles of body 1 do not
+   fill brute-force's last block of boxes.) */
+TEST(query_beyond_the_range_of_floats_equals_all_pairs)
+{
+    scene s;
+    scene_init(&s, 9, 7, 1, true);
+    run_distance(&s, 6, 1e21, false);
+    scene_free(&s);
+}
+
+TEST(query_for_contact_within_a_huge_tolerance_finds_it)
+{
+    scene s;
+    scene_init(&s, 9, 7, 1, true);
+    for (int i = 0; i < VARIANTS; i++) {
+        const double tolerance = 1e21 * s.length;
+        instance made =
+            create(&variants[i], scene_setup(&s, MOTE_ASK_CONTACT, tolerance, NULL));
+        for (int f = 0; f < 6; f++) {
+            const mote_answer a = ask(&made, scene_next(&s, 2e21, false));
+            test_row("%s:%s frame %d", variants[i].method, variants[i].options, f);
+            assert_int_equal(a.contact, scene_truth(&s) <= tolerance);
+        }
+        made.method->destroy(made.state);
+    }
     scene_free(&s);
 }
 

@@ -1,7 +1,7 @@
 /* hybrid-fcl: the particles find an upper bound, FCL with axis-aligned boxes starts from it and
    makes the answer exact (paper section 6: combining with existing techniques). Boxes are
    refitted bottom-up; the particles read the vertices that the refit needs anyway. */
-#include "baselines/fcl_aabb.hpp"
+#include "baselines/fcl/fcl_aabb.hpp"
 
 #include <cstdio>
 

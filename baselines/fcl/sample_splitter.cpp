@@ -1,4 +1,4 @@
-#include "baselines/sample_splitter.hpp"
+#include "baselines/fcl/sample_splitter.hpp"
 
 #include <algorithm>
 #include <new>

@@ -1,5 +1,5 @@
 #include "baselines/broad_phase.h"
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 #include <array>
 

@@ -19,15 +19,15 @@
 #define EIGEN_MAX_ALIGN_BYTES 16
 #define EIGEN_HAS_CXX17_OVERALIGN 0
 
-#include "baselines/fcl_parameters.hpp"
+#include "baselines/fcl/fcl_parameters.hpp"
+#include "baselines/fcl/sample_splitter.hpp"
+#include "baselines/guard.hpp"
 #include "baselines/input.h"
-#include "baselines/sample_splitter.hpp"
 #include "core/body/triangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <new>
@@ -60,7 +60,24 @@ inline Vector to_fcl(mote_vec3 v, double scale)
     return Vector(v.x * scale, v.y * scale, v.z * scale);
 }
 
-/* Builds a new model of a mesh as it is at rest; its splitter is set before. FCL's code. */
+/* Builds a new model; its splitter is set before. FCL's code, or std::bad_alloc where that says
+   that memory ran out. */
+template <class BV>
+int build_model(const std::vector<Vector> &vertices,
+                const std::vector<fcl::Triangle> &triangles, fcl::BVHModel<BV> &model)
+{
+    int code =
+        model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+    if (code == fcl::BVH_OK)
+        code = model.addSubModel(vertices, triangles);
+    if (code == fcl::BVH_OK)
+        code = model.endModel();
+    if (code == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY)
+        throw std::bad_alloc();
+    return code;
+}
+
+/* The same for a mesh as it is at rest. */
 template <class BV>
 int build_model(const mote_mesh *mesh, double scale, fcl::BVHModel<BV> &model)
 {
@@ -72,13 +89,35 @@ int build_model(const mote_mesh *mesh, double scale, fcl::BVHModel<BV> &model)
         const uint32_t *t = mesh->triangles[i];
         triangles[i].set(t[0], t[1], t[2]);
     }
-    int code = model.beginModel(static_cast<int>(mesh->triangle_count),
-                                static_cast<int>(mesh->vertex_count));
+    return build_model(vertices, triangles, model);
+}
+
+/* Replaces the vertices of a model by world positions, checked in the same pass, and brings its
+   tree up to date. body: its number, for messages. MOTE_EINVAL for vertices that
+   mote_input_check_vertices refuses: the tree keeps its boxes, and some vertices are replaced.
+ */
+template <class BV>
+mote_status replace_vertices(fcl::BVHModel<BV> &model, const mote_vec3 *vertices, double scale,
+                             int body, UpdateMode mode)
+{
+    const uint32_t count = static_cast<uint32_t>(model.num_vertices);
+    if (!vertices)
+        return mote_input_check_vertices(vertices, count, body);
+    int code = model.beginReplaceModel();
+    double zero = 0;
+    for (uint32_t i = 0; i < count && code == fcl::BVH_OK; ++i) {
+        zero += mote_input_zero(vertices[i]);
+        code = model.replaceVertex(to_fcl(vertices[i], scale));
+    }
+    if (std::isnan(zero)) {
+        model.build_state = fcl::BVH_BUILD_STATE_PROCESSED; /* so that it can begin again */
+        return mote_input_check_vertices(vertices, count, body);
+    }
     if (code == fcl::BVH_OK)
-        code = model.addSubModel(vertices, triangles);
-    if (code == fcl::BVH_OK)
-        code = model.endModel();
-    return code;
+        code = model.endReplaceModel(mode != REBUILD, mode == REFIT_BOTTOM_UP);
+    if (code != fcl::BVH_OK)
+        return mote_fail(MOTE_ENUMERIC, "FCL could not refit body %d: code %d", body, code);
+    return MOTE_OK;
 }
 
 inline Transform to_fcl(const mote_pose &pose, double scale)
@@ -97,18 +136,9 @@ inline mote_vec3 from_fcl(const Vector &v, double factor)
     return mote_vec3_make(v[0] * factor, v[1] * factor, v[2] * factor);
 }
 
-/* Runs body and turns exceptions into a status, since none may leave a C function. */
 template <class Body> mote_status guard(Body &&body) noexcept
 {
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return mote_fail(MOTE_ENOMEM, "FCL ran out of memory");
-    } catch (const std::exception &error) {
-        return mote_fail(MOTE_ENUMERIC, "FCL: %s", error.what());
-    } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "FCL threw an unknown exception");
-    }
+    return mote_guard("FCL", body);
 }
 
 /* A distance node that also stops once a pair within `enough` is found, which answers a contact
@@ -202,7 +232,6 @@ template <class Volume> class Pair
 
   private:
     bool needs_refit(int b, const mote_body_state &state) const;
-    mote_status replace(int b, const mote_vec3 *vertices);
     Bound seed() const;
     void corners(int b, mote_vec3 corner[3]) const;
     void collide(mote_answer *answer);
@@ -219,6 +248,7 @@ template <class Volume> class Pair
     double scale;
     double tolerance; /* scaled */
     bool rigid[2];
+    bool spoilt[2] = {};       /* the last vertices were refused */
     int closest[2] = {-1, -1}; /* the last query's triangles; -1: none yet */
 };
 
@@ -234,29 +264,13 @@ template <class Volume> mote_status Pair<Volume>::build(const mote_setup *setup)
     return MOTE_OK;
 }
 
-template <class Volume> mote_status Pair<Volume>::replace(int b, const mote_vec3 *vertices)
-{
-    Model &m = model[b];
-    uint32_t count = static_cast<uint32_t>(m.num_vertices);
-    mote_status status = mote_input_check_vertices(vertices, count, b);
-    if (status != MOTE_OK)
-        return status;
-    int code = m.beginReplaceModel();
-    if (code == fcl::BVH_OK) {
-        for (uint32_t i = 0; i < count; ++i)
-            m.replaceVertex(to_fcl(vertices[i], scale));
-        code = m.endReplaceModel(options.update != REBUILD, options.update == REFIT_BOTTOM_UP);
-    }
-    if (code != fcl::BVH_OK)
-        return mote_fail(MOTE_ENUMERIC, "FCL could not refit body %d: code %d", b, code);
-    return MOTE_OK;
-}
-
 /* Whether a body's tree no longer fits. Weights are in world axes, so that a body which can
    deform keeps its shape only as long as it does not turn. */
 template <class Volume>
 bool Pair<Volume>::needs_refit(int b, const mote_body_state &state) const
 {
+    if (spoilt[b])
+        return true;
     if (!Volume::oriented)
         return state.shape_changed || state.pose_changed;
     const mote_mat3 &rotation = state.pose.rotation;
@@ -272,8 +286,9 @@ template <class Volume> mote_status Pair<Volume>::update(const mote_frame *frame
         if (status != MOTE_OK)
             return status;
         if (needs_refit(b, state)) {
-            status = replace(b, state.vertices);
-            if (status != MOTE_OK)
+            status = replace_vertices(model[b], state.vertices, scale, b, options.update);
+            spoilt[b] = status != MOTE_OK;
+            if (spoilt[b])
                 return status;
             refit_pose[b] = state.pose;
         }

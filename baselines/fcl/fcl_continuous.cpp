@@ -6,7 +6,7 @@
    A linear motion turns about the path's pivot. Of FCL's four ways to make one, only that from
    matrices and a point sets all of it (datasets/defects.md, 20). Its ray shooting is left out:
    it has no code, and answers -1. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 #include "core/method/impact_method.h"
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_FCL_AABB_HPP
 #define MOTE_BASELINES_FCL_AABB_HPP
 
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace mote_fcl
 {

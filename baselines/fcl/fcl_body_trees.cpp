@@ -2,7 +2,7 @@
    with the last pair of triangles as the first bound and a queue of 64 (the best setting that
    we found). */
 #include "baselines/body_trees.h"
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {
@@ -30,11 +30,14 @@ struct FclBodies {
     }
 };
 
-mote_status build(const FclBodies &s, uint32_t shape, Model &model)
+/* Adds a model to those of a shape. */
+mote_status add_model(FclBodies &s, uint32_t number)
 {
-    const int code = mote_fcl::build_model(s.setup.shapes[shape]->mesh, s.scale, model);
+    auto made = std::make_unique<Model>();
+    const int code = mote_fcl::build_model(s.setup.shapes[number]->mesh, s.scale, *made);
     if (code != fcl::BVH_OK)
-        return mote_fail(MOTE_ENUMERIC, "FCL could not build shape %u: code %d", shape, code);
+        return mote_fail(MOTE_ENUMERIC, "FCL could not build shape %u: code %d", number, code);
+    s.shapes[number].models.push_back(std::move(made));
     return MOTE_OK;
 }
 
@@ -51,8 +54,12 @@ mote_status create(const mote_body_trees_setup *setup, void **state)
         for (uint32_t i = 0; i < setup->shape_count; ++i)
             most = std::max(most, setup->shapes[i]->mesh->vertex_count);
         made->written.resize(most);
-        *state = made.release();
-        return MOTE_OK;
+        mote_status status = MOTE_OK;
+        for (uint32_t i = 0; setup->every && i < setup->body_count && status == MOTE_OK; ++i)
+            status = add_model(*made, setup->shape_of[i]);
+        if (status == MOTE_OK)
+            *state = made.release();
+        return status;
     });
 }
 
@@ -74,11 +81,9 @@ mote_status room(void *state, uint32_t body, mote_vec3 **vertices)
         const uint32_t number = s.setup.shape_of[body];
         ShapeModels &shape = s.shapes[number];
         if (shape.used == shape.models.size()) {
-            auto made = std::make_unique<Model>();
-            mote_status status = build(s, number, *made);
+            const mote_status status = add_model(s, number);
             if (status != MOTE_OK)
                 return status;
-            shape.models.push_back(std::move(made));
         }
         s.place[body] = shape.used++;
         *vertices = s.written.data();
@@ -90,20 +95,8 @@ mote_status move(void *state, uint32_t body)
 {
     return mote_fcl::guard([&] {
         FclBodies &s = *static_cast<FclBodies *>(state);
-        Model &m = s.model(body);
-        const uint32_t count = static_cast<uint32_t>(m.num_vertices);
-        mote_status status =
-            mote_input_check_vertices(s.written.data(), count, static_cast<int>(body));
-        if (status != MOTE_OK)
-            return status;
-        int code = m.beginReplaceModel();
-        for (uint32_t i = 0; i < count && code == fcl::BVH_OK; ++i)
-            code = m.replaceVertex(mote_fcl::to_fcl(s.written[i], s.scale));
-        if (code == fcl::BVH_OK)
-            code = m.endReplaceModel(true, true);
-        if (code != fcl::BVH_OK)
-            return mote_fail(MOTE_ENUMERIC, "FCL could not refit body %u: code %d", body, code);
-        return MOTE_OK;
+        return mote_fcl::replace_vertices(s.model(body), s.written.data(), s.scale,
+                                          static_cast<int>(body), mote_fcl::REFIT_BOTTOM_UP);
     });
 }
 

@@ -10,7 +10,7 @@
    which FCL can only turn and move: the nearest rotation stands for a bone that scales or
    shears. search=certified: the certified query on a skin in which every vertex follows one
    bone, which shows what blending costs that query. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 #include "core/certificate/certificate.h"
 #include "core/skin/skin.h"
 
@@ -163,12 +163,7 @@ mote_status build_part(const mote_mesh &mesh, const std::vector<uint32_t> &trian
         const uint32_t *corner = mesh.triangles[t];
         faces.emplace_back(place(corner[0]), place(corner[1]), place(corner[2]));
     }
-    int code = part.model.beginModel(static_cast<int>(faces.size()),
-                                     static_cast<int>(vertices.size()));
-    if (code == fcl::BVH_OK)
-        code = part.model.addSubModel(vertices, faces);
-    if (code == fcl::BVH_OK)
-        code = part.model.endModel();
+    const int code = mote_fcl::build_model(vertices, faces, part.model);
     if (code != fcl::BVH_OK)
         return mote_fail(MOTE_ENUMERIC, "FCL could not build the part of bone %u: code %d",
                          part.bone, code);

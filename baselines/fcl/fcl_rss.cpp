@@ -1,6 +1,6 @@
 /* fcl-rss: FCL with rectangle swept spheres. FCL's bottom-up refit of them is wrong, so the
    default refits top-down. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {

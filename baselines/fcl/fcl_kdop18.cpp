@@ -1,6 +1,6 @@
 /* fcl-kdop18: FCL with polytopes of 18 fixed directions, refit bottom-up. FCL has contact for
    them and no distance. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {

@@ -1,6 +1,6 @@
 /* fcl-kios: FCL with intersections of spheres and an oriented box. FCL's bottom-up refit leaves
    a few of them too small, so the default refits top-down. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {

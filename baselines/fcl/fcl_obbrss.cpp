@@ -1,6 +1,6 @@
 /* fcl-obbrss: FCL with oriented boxes (contact) and rectangle swept spheres (distance) in one
    tree. FCL's bottom-up refit of it is wrong, so the default refits top-down. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {

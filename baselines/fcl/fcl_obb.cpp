@@ -1,7 +1,7 @@
 /* fcl-obb: FCL with oriented boxes, refit top-down. FCL has contact for them, but no distance.
    The distance is therefore ours: a node for FCL's traversal of FCL's trees, which bounds the
    distance of two boxes from below by their separating axes; triangles are measured by FCL. */
-#include "baselines/fcl_adapter.hpp"
+#include "baselines/fcl/fcl_adapter.hpp"
 
 namespace
 {
