@@ -399,7 +399,6 @@ PLANT(mote_summary_make, const char *directory, mote_summary *summary)
                                .frame_range = {timed[i].frames[0], timed[i].frames[1]},
                                .fingerprint = "",
                                .faces = "",
-                               .faces = "",
                                .machine = "",
                                .ask = "",
                                .times_comparable = true};
