@@ -51,7 +51,7 @@ typedef struct mote_cert_bounds {
     /* Bytes that a side needs for a frame (side->frame, aligned to 64). */
     size_t (*frame_bytes)(const mote_cert_tree *tree);
 
-    /* Converts the frame's weights; sets side->bound, spread, exact and the margins. Pose and
+    /* Converts the frame's weights; sets side->bound, exact and the margins. Pose and
        origin are already set in the side. */
     void (*begin)(mote_cert_side *side);
 

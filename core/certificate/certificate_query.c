@@ -1,5 +1,6 @@
 /* One certified query: a first upper bound, then the proof that nothing is nearer, started
    again whenever something is. */
+#include "core/certificate/certificate_fitted.h"
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
@@ -196,6 +197,15 @@ static void begin_sides(mote_certificate *c, const mote_frame *frame)
 /* Coordinates that add up to less than this have squares and products that are floats. */
 #define FARTHEST 0x1p59
 
+/* How far a vertex can be from its body's middle along an axis. What other bounds than fits
+   count into side->bound is not known here. */
+static double spread(const mote_cert_side *side)
+{
+    const double middle = mote_largest_coordinate(side->exact_translation);
+    return side->tree->bounds == &mote_cert_fitted ? side->bound - middle
+                                                   : side->bound + middle;
+}
+
 /* What is left to say where coordinates leave the range of floats: the bodies' middles are so
    far apart along an axis, and nothing is farther from them than the spread. */
 static bool beyond_floats(mote_certificate *c, double *lower)
@@ -206,7 +216,7 @@ static bool beyond_floats(mote_certificate *c, double *lower)
         return false;
     const mote_vec3 middles = mote_sub(b->exact_translation, a->exact_translation);
     const double rounded = 0x1p-40 * (size + a->world + b->world);
-    const double gap = mote_largest_coordinate(middles) - (a->spread + b->spread) - rounded;
+    const double gap = mote_largest_coordinate(middles) - (spread(a) + spread(b)) - rounded;
     *lower = gap > 0 ? gap / c->scale : 0;
     c->stopped = true;
     return true;

@@ -69,7 +69,6 @@ typedef struct mote_cert_side {
     mote_vec3 exact_translation; /* relative to the origin, in the trees' units */
     double exact;                /* rounding error of positions in double precision */
     double bound;                /* bound on every coordinate that occurs */
-    double spread;               /* the same, relative to exact_translation */
     double noise;                /* rounding error of exact coordinates along a direction */
     double world;                /* size of the coordinates that pose and origin add up to */
     float margin_unit;           /* of a box's margin, as the tree's bounds make it up */

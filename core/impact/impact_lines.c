@@ -138,8 +138,7 @@ static void lines_begin(mote_cert_side *side)
     side->translation[2] = (float)t.z;
     side->world =
         mote_largest_coordinate(origin) + (fabs(a) * p->size + fabs(b) * q->size) * scale;
-    side->spread = fabs(a) * p->radius + fabs(b) * q->radius;
-    side->bound = mote_largest_coordinate(t) + side->spread;
+    side->bound = mote_largest_coordinate(t) + fabs(a) * p->radius + fabs(b) * q->radius;
     side->noise = 0x1p-48 * side->bound;
     side->exact = 0x1p-48 * (side->world + side->bound);
     side->margin_unit = 0;

@@ -167,7 +167,6 @@ void mote_skin_begin(mote_cert_side *side)
                          (fabs(t.x) + fabs(t.y) + fabs(t.z)) + shift;
     const double most = skin->most + (double)skin->morph.most;
     side->bound = shift + stretch * (tree->radius + morphed) + finite;
-    side->spread = side->bound + mote_largest_coordinate(t);
     side->noise = 0x1p-48 * side->bound;
     side->exact = 0x1p-48 * (most + 4) * (side->world + moved + side->bound);
     side->margin_base = rounded_up(2 * tree->leak * stretch + side->exact);
