@@ -71,15 +71,23 @@ has_this_program() { # STUDY.JSON CHANGED
 code() {
     gcc -fpreprocessed -dD -E -P -x c++ -
 }
-has_same_code() { # FILE COMMIT
-    local old new
-    [[ $1 =~ $c_file ]] && old=$(git show "$2:$1" | code) && new=$(code <"$1") && [ "$old" = "$new" ]
+# Many records were made while a file was the same: what was compared once is known by its hashes.
+compared=$(mktemp -d)
+trap 'rm -rf "$compared"' EXIT
+has_same_code() { # FILE OLD_HASH HASH, all zeros where the file is not as in the index
+    local old new known=$compared/$2-$3
+    [[ $1 =~ $c_file ]] || return 1
+    [[ $3 =~ ^0+$ ]] || ! [ -e "$known" ] || return "$(<"$known")"
+    old=$(git cat-file blob "$2" | code) && new=$(code <"$1") && [ "$old" = "$new" ]
+    local status=$?
+    echo $status >"$known"
+    return $status
 } 2>/dev/null
 # Those of some files whose code has changed since a commit.
-with_other_code() { # COMMIT, the files on standard input
-    local file
-    while read -r file; do
-        has_same_code "$file" "$1" || echo "$file"
+with_other_code() { # the lines of git diff --raw on standard input
+    local old new status file
+    while read -r _ _ old new status file; do
+        [ "$status" = M ] && has_same_code "$file" "$old" "$new" || echo "${file##*$'\t'}"
     done
 }
 # What the record exercised and is not so any more; nothing if all of it is.
@@ -89,11 +97,11 @@ change_since() { # STUDY.JSON
     old=$(value "$1" same_commit)
     [ -n "$old" ] || old=$(value "$1" commit)
     # shellcheck disable=SC2086 # a list of paths
-    if ! changed=$(git diff --name-only "$old" -- $sources "$no_texts" 2>/dev/null); then
+    if ! changed=$(git diff --raw --no-abbrev "$old" -- $sources "$no_texts" 2>/dev/null); then
         echo "other sources than at $old"
         return
     fi
-    changed=$(with_other_code "$old" <<<"$changed")
+    [ -z "$changed" ] || changed=$(with_other_code <<<"$changed")
     if [ -n "$changed" ] && ! has_this_program "$1" "$changed"; then
         echo "$(head -1 <<<"$changed")$(awk 'END { if (NR > 1) printf " and %d more", NR - 1 }' <<<"$changed") changed since $old"
     fi
