@@ -8,6 +8,7 @@
 #include "core/body/triangle.h"
 
 #include "core/base/clones.h"
+#include "core/body/triangle_scale.h"
 
 #include <float.h>
 #include <stdbool.h>
@@ -25,10 +26,13 @@
 /* Below this squared sine of the corner a plane is left to the slower search. */
 #define FLAT_SINE_SQUARED (1.0 / 64)
 
-/* Coordinates are scaled where the largest is not within these powers of two: products of four
-   lengths are numbers with all their bits then. */
-#define LEAST_POWER (-100)
-#define MOST_POWER 100
+/* Products of six lengths that are not much larger may have lost bits: they decide nothing. */
+#define LEAST_PRODUCT 0x1p-800
+
+/* No product overflows where the squared edges add up to no more than MOST_EDGES; from
+   LEAST_EDGES on, none that a doubtful pair needs has lost bits. */
+#define LEAST_EDGES 0x1p-100
+#define MOST_EDGES 0x1p200
 
 /* One candidate: the two points and their difference p - q, which is more accurate than they
  * are. */
@@ -45,13 +49,7 @@ typedef struct face {
     double squared_edges; /* |e1|^2 + |e2|^2 */
 } face;
 
-typedef enum side_kind {
-    SIDE_CLEAR,
-    SIDE_ONE,
-    SIDE_BOTH,
-    SIDE_DOUBTFUL,
-    SIDE_BEYOND /* doubtful, since products may leave the range of doubles */
-} side_kind;
+typedef enum side_kind { SIDE_CLEAR, SIDE_ONE, SIDE_BOTH, SIDE_DOUBTFUL } side_kind;
 
 /* On which side of the plane of one triangle the vertices of the other lie. */
 typedef struct side {
@@ -137,41 +135,6 @@ static face make_face(const mote_vec3 t[3])
     f.n = mote_cross(f.e1, f.e2);
     measure_face(&f);
     return f;
-}
-
-static double largest_of(const mote_vec3 *points, int count)
-{
-    double largest = 0;
-    for (int i = 0; i < count; i++)
-        largest = max2(largest, mote_largest_coordinate(points[i]));
-    return largest;
-}
-
-/* The power of two to scale by two sets of points whose largest coordinate is given; 0: they
-   are as they should be. */
-static int power_for(double largest)
-{
-    const int power = largest > 0 && largest <= DBL_MAX ? ilogb(largest) : 0;
-    return power < LEAST_POWER || power > MOST_POWER ? -power : 0;
-}
-
-static mote_vec3 scaled(mote_vec3 v, int power)
-{
-    return mote_vec3_make(ldexp(v.x, power), ldexp(v.y, power), ldexp(v.z, power));
-}
-
-static void scale_all(const mote_vec3 *points, int count, int power, mote_vec3 *to)
-{
-    for (int i = 0; i < count; i++)
-        to[i] = scaled(points[i], power);
-}
-
-/* The squared distance of what was scaled, before it was. One too small for a double is the
-   least, since 0 means a contact. */
-static double unscaled_squared(double squared, int power)
-{
-    const double result = ldexp(squared, -2 * power);
-    return squared > 0 && !(result > 0) ? DBL_TRUE_MIN : result;
 }
 
 /* The squared length of the longest edge of s and t. */
@@ -414,11 +377,12 @@ static void search_carefully(const mote_vec3 s[3], const mote_vec3 t[3], candida
 }
 
 /* True if a length that may be wrong by an error is more than another one, all squared: 2,000
-   times its error, it is right to 0.05 %, 2e9 times, to 5e-10. */
+   times its error, it is right to 0.05 %, 2e9 times, to 5e-10. False where both are infinite.
+ */
 static inline bool surely_beyond(double squared, double other, double error_squared)
 {
     const bool fine = squared > 4e18 * error_squared;
-    return squared * (fine ? 1 - 2e-9 : 0.999) >= other && squared > 4e6 * error_squared;
+    return squared * (fine ? 1 - 2e-9 : 0.999) > other && squared > 4e6 * error_squared;
 }
 
 /* Sorts the vertices v by the side of f on which they lie. SIDE_CLEAR: all are farther from the
@@ -426,22 +390,19 @@ static inline bool surely_beyond(double squared, double other, double error_squa
    SIDE_BOTH: on both sides beyond rounding. Else SIDE_DOUBTFUL. */
 static inline side classify(const face *f, const mote_vec3 v[3], double bound_squared)
 {
-    side r = {.kind = SIDE_BEYOND};
+    side r = {.kind = SIDE_DOUBTFUL};
     double ww = 0;
     for (int k = 0; k < 3; k++) {
         mote_vec3 w = mote_sub(v[k], f->o);
         r.h[k] = mote_dot(f->n, w);
         ww = max2(ww, mote_length_squared(w));
     }
-    double error_squared = HEIGHT_ERROR * HEIGHT_ERROR * f->ee * ww;
-    if (!(error_squared > 0x1p-800 && error_squared < 0x1p800 && f->nn > 0x1p-900))
-        return r;
-    r.kind = SIDE_DOUBTFUL;
+    double error_squared = HEIGHT_ERROR * HEIGHT_ERROR * f->ee * ww + LEAST_PRODUCT;
     double h0 = fabs(r.h[0]), h1 = fabs(r.h[1]), h2 = fabs(r.h[2]);
     bool one = (r.h[0] > 0) == (r.h[1] > 0) && (r.h[0] > 0) == (r.h[2] > 0);
     r.lowest = h0 <= h1 ? (h0 <= h2 ? 0 : 2) : (h1 <= h2 ? 1 : 2);
     double h = fabs(r.h[r.lowest]), hh = h * h;
-    if (one && surely_beyond(hh, bound_squared * f->nn, error_squared)) {
+    if (one && surely_beyond(hh, bound_squared * (f->nn + LEAST_PRODUCT), error_squared)) {
         r.kind = SIDE_CLEAR;
         return r;
     }
@@ -540,14 +501,15 @@ static inline bool centres_separate(const mote_vec3 s[3], const mote_vec3 t[3],
 static double triangles_scaled(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared,
                                int power, mote_vec3 *p, mote_vec3 *q)
 {
-    mote_vec3 a[3], b[3], x, y;
-    scale_all(s, 3, power, a);
-    scale_all(t, 3, power, b);
-    const double squared = unscaled_squared(mote_triangle_triangle(a, b, &x, &y), power);
+    mote_vec3 a[3], b[3], on_a, on_b;
+    mote_scale_points(s, 3, power, a);
+    mote_scale_points(t, 3, power, b);
+    const double squared =
+        mote_unscaled_squared(mote_triangle_triangle(a, b, &on_a, &on_b), power);
     if (squared >= bound_squared && squared > 0)
         return squared;
-    set(p, scaled(x, -power));
-    set(q, scaled(y, -power));
+    mote_unscale_point(on_a, power, p);
+    mote_unscale_point(on_b, power, q);
     return squared;
 }
 
@@ -563,18 +525,20 @@ double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
     side st = classify(&fs, t, bound_squared);
     if (st.kind == SIDE_CLEAR)
         return bound_squared;
-    if (ss.kind == SIDE_BEYOND || st.kind == SIDE_BEYOND) {
-        const int power = power_for(max2(largest_of(s, 3), largest_of(t, 3)));
-        if (power != 0)
-            return triangles_scaled(s, t, bound_squared, power, p, q);
-    }
-    if (centres_separate(s, t, bound_squared))
+    double edges_squared = fs.squared_edges + ft.squared_edges;
+    bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
+    const bool odd = edges_squared > MOST_EDGES || (doubtful && edges_squared < LEAST_EDGES);
+    if (!odd && centres_separate(s, t, bound_squared))
         return bound_squared;
-    const bool doubtful = ss.kind >= SIDE_DOUBTFUL || st.kind >= SIDE_DOUBTFUL;
     candidate c;
     if (doubtful || !face_decides(s, t, &fs, &ft, &ss, &st, &c))
         edge_candidate(s, t, &c);
-    bool near = c.squared <= NEAR * NEAR * (fs.squared_edges + ft.squared_edges);
+    if (odd || !(c.squared <= DBL_MAX)) {
+        const int power = mote_triangle_power(s, 3, t, 3);
+        if (power != 0)
+            return triangles_scaled(s, t, bound_squared, power, p, q);
+    }
+    bool near = c.squared <= NEAR * NEAR * edges_squared;
     if (near)
         settle_contact(s, t, &c);
     if ((doubtful || near) && c.squared > 0) {
@@ -594,9 +558,26 @@ double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_v
     return mote_triangle_triangle_below(s, t, HUGE_VAL, p, q);
 }
 
-MOTE_CLONES
-static double segments(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p, mote_vec3 *q)
+static double segments_scaled(const mote_vec3 a[2], const mote_vec3 b[2], int power,
+                              mote_vec3 *p, mote_vec3 *q)
 {
+    mote_vec3 c[2], d[2], on_c, on_d;
+    mote_scale_points(a, 2, power, c);
+    mote_scale_points(b, 2, power, d);
+    const double squared =
+        mote_unscaled_squared(mote_segment_segment(c, d, &on_c, &on_d), power);
+    mote_unscale_point(on_c, power, p);
+    mote_unscale_point(on_d, power, q);
+    return squared;
+}
+
+MOTE_CLONES
+double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
+                            mote_vec3 *q)
+{
+    const int power = mote_triangle_power(a, 2, b, 2);
+    if (power != 0)
+        return segments_scaled(a, b, power, p, q);
     mote_vec3 s[3] = {a[0], a[1], a[0]}, t[3] = {b[0], b[1], b[0]};
     candidate c;
     edge_candidate(s, t, &c);
@@ -606,24 +587,23 @@ static double segments(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
     return c.squared;
 }
 
-double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
-                            mote_vec3 *q)
+static double point_scaled(mote_vec3 p, const mote_vec3 t[3], int power, mote_vec3 *closest)
 {
-    const int power = power_for(max2(largest_of(a, 2), largest_of(b, 2)));
-    if (power == 0)
-        return segments(a, b, p, q);
-    mote_vec3 c[2], d[2], x, y;
-    scale_all(a, 2, power, c);
-    scale_all(b, 2, power, d);
-    const double squared = unscaled_squared(segments(c, d, &x, &y), power);
-    set(p, scaled(x, -power));
-    set(q, scaled(y, -power));
+    mote_vec3 point, corner[3], on_t;
+    mote_scale_points(&p, 1, power, &point);
+    mote_scale_points(t, 3, power, corner);
+    const double squared =
+        mote_unscaled_squared(mote_point_triangle(point, corner, &on_t), power);
+    mote_unscale_point(on_t, power, closest);
     return squared;
 }
 
 MOTE_CLONES
-static double point_and_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
+double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
 {
+    const int power = mote_triangle_power(&p, 1, t, 3);
+    if (power != 0)
+        return point_scaled(p, t, power, closest);
     face f = make_face(t);
     candidate c;
     bool flat = f.nn <= FLAT_SINE_SQUARED * f.ee;
@@ -649,17 +629,4 @@ static double point_and_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *c
     }
     set(closest, c.q);
     return c.squared;
-}
-
-double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
-{
-    const int power = power_for(max2(mote_largest_coordinate(p), largest_of(t, 3)));
-    if (power == 0)
-        return point_and_triangle(p, t, closest);
-    mote_vec3 corner[3], x;
-    scale_all(t, 3, power, corner);
-    const double squared =
-        unscaled_squared(point_and_triangle(scaled(p, power), corner, &x), power);
-    set(closest, scaled(x, -power));
-    return squared;
 }

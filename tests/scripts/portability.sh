@@ -11,7 +11,7 @@ flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno
 sources="tests/unit/core/test_portability.c tests/support/test_main.c tests/support/folder.c \
     harness/base/file.c harness/base/memory.c"
 for name in status mesh_create mesh_ring field_kinds field_evaluate field_sum csrbf modes body deform lazy \
-    potential site start far_cache particles triangle refine \
+    potential site start far_cache particles triangle triangle_scale refine \
     certificate_query certificate_apart certificate_create certificate_build certificate_split certificate_box certificate_fitted \
     certificate_fitted_build certificate_deform certificate_leaf certificate_row certificate_pair \
     certificate_hulls certificate_triangles certificate_search leaf_order sample_split pool stream_boxes \
