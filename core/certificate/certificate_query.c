@@ -1,6 +1,5 @@
 /* One certified query: a first upper bound, then the proof that nothing is nearer, started
    again whenever something is. */
-#include "core/certificate/certificate_fitted.h"
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
@@ -194,42 +193,38 @@ static void begin_sides(mote_certificate *c, const mote_frame *frame)
     c->noise = c->side[0].noise + c->side[1].noise;
 }
 
+/* The middle of a body at rest, where its pose places it. */
+static mote_vec3 middle_of(const mote_certificate *c, const mote_frame *frame, int s)
+{
+    return mote_pose_apply(&frame->body[s].pose, c->side[s].tree->origin);
+}
+
+/* The point halfway between the middles of both bodies. */
+static mote_vec3 between(const mote_certificate *c, const mote_frame *frame)
+{
+    return mote_scale(mote_add(middle_of(c, frame, 0), middle_of(c, frame, 1)), 0.5);
+}
+
 /* Coordinates that add up to less than this have squares and products that are floats. */
 #define FARTHEST 0x1p59
 
-/* How far a vertex can be from its body's middle along an axis. What other bounds than fits
-   count into side->bound is not known here. */
-static double spread(const mote_cert_side *side)
+/* Where coordinates leave the range of floats, nothing is searched for. What is left to say is
+   how far the bodies' middles are apart along an axis, less how far each body reaches from its
+   own: the bound of a side that begins there. */
+static bool beyond_floats(mote_certificate *c, const mote_frame *frame, double *lower)
 {
-    const double middle = mote_largest_coordinate(side->exact_translation);
-    return side->tree->bounds == &mote_cert_fitted ? side->bound - middle
-                                                   : side->bound + middle;
-}
-
-/* What is left to say where coordinates leave the range of floats: the bodies' middles are so
-   far apart along an axis, and nothing is farther from them than the spread. */
-static bool beyond_floats(mote_certificate *c, double *lower)
-{
-    const mote_cert_side *a = &c->side[0], *b = &c->side[1];
-    const double size = a->bound + b->bound;
-    if (size < FARTHEST)
+    if (c->side[0].bound + c->side[1].bound < FARTHEST)
         return false;
-    const mote_vec3 middles = mote_sub(b->exact_translation, a->exact_translation);
-    const double rounded = 0x1p-40 * (size + a->world + b->world);
-    const double gap = mote_largest_coordinate(middles) - (spread(a) + spread(b)) - rounded;
+    const mote_vec3 middle[2] = {middle_of(c, frame, 0), middle_of(c, frame, 1)};
+    double gap = mote_largest_coordinate(mote_sub(middle[1], middle[0])) * c->scale;
+    gap *= 1 - 0x1p-40;
+    for (int s = 0; s < 2; ++s) {
+        mote_cert_side_begin(&c->side[s], &frame->body[s], middle[s]);
+        gap -= c->side[s].bound + 0x1p-40 * (c->side[s].world + c->side[s].bound);
+    }
     *lower = gap > 0 ? gap / c->scale : 0;
     c->stopped = true;
     return true;
-}
-
-/* The point halfway between the middles of both bodies at rest, where their poses place them.
- */
-static mote_vec3 between(const mote_certificate *c, const mote_frame *frame)
-{
-    mote_vec3 middle[2];
-    for (int s = 0; s < 2; ++s)
-        middle[s] = mote_pose_apply(&frame->body[s].pose, c->side[s].tree->origin);
-    return mote_scale(mote_add(middle[0], middle[1]), 0.5);
 }
 
 /* Proves the limit; lowers the upper bound whenever something nearer is found. */
@@ -328,7 +323,7 @@ static double search_from_seed(mote_certificate *c, const mote_frame *frame,
     if (c->upper > c->enough) { /* else it is the contact that was asked for */
         c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
         begin_sides(c, frame);
-        if (!beyond_floats(c, &lower)) {
+        if (!beyond_floats(c, frame, &lower)) {
             mote_cert_set_best(c, c->best.squared);
             prove(c);
             lower = lower_bound(c);
@@ -354,7 +349,7 @@ static double search_apart(mote_certificate *c, const mote_frame *frame)
         mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);
     begin_sides(c, frame);
     mote_cert_set_best(c, HUGE_VAL);
-    if (!beyond_floats(c, &lower) && !mote_cert_still_apart(c, &lower)) {
+    if (!beyond_floats(c, frame, &lower) && !mote_cert_still_apart(c, &lower)) {
         prove(c);
         lower = lower_bound(c);
     }
