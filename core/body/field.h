@@ -128,6 +128,20 @@ struct mote_field {
     size_t bytes;         /* heap held, this struct included */
 };
 
+/* How many weights are vectors, which turn with the body; the numbers, which come after them,
+   do not. */
+static inline uint32_t mote_field_vectors(const mote_field *field)
+{
+    return field->count - field->numbers;
+}
+
+/* Of a field with numbers: the first of the three weights before them, which are the columns of
+   the pose's rotation, and so the axes themselves to one who turns with the body. */
+static inline uint32_t mote_field_first_axis(const mote_field *field)
+{
+    return mote_field_vectors(field) - 3;
+}
+
 /* A field that never deforms. MOTE_ENOMEM. The caller destroys *field, as of all fields below.
  */
 mote_status mote_field_create_static(mote_field **field);

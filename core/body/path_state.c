@@ -1,7 +1,6 @@
 #include "core/body/path.h"
 
 #include "core/base/turn.h"
-#include "core/body/field_axes.h"
 #include "core/body/path_place.h"
 
 #include <string.h>

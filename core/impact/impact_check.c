@@ -1,8 +1,6 @@
 /* What is wrong with a question about an impact. */
 #include "core/impact/impact_state.h"
 
-#include "core/body/field_axes.h"
-
 /* Quaternions of a piece that come nearer to 0 than this part of the longest are refused. */
 #define LEAST_TURN 1e-3
 

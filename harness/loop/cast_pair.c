@@ -1,6 +1,5 @@
 #include "harness/loop/cast.h"
 
-#include "core/body/field_axes.h"
 #include "harness/base/memory.h"
 #include "harness/loop/reach.h"
 

@@ -1,6 +1,5 @@
 #include "harness/loop/flight.h"
 
-#include "core/body/field_axes.h"
 #include "core/body/path_place.h"
 #include "harness/base/memory.h"
 #include "harness/loop/reach.h"
