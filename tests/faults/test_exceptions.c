@@ -5,14 +5,7 @@
 #include "tests/support/methods.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
-
-/* The C++ ABI names of std::bad_alloc, std::length_error and the type info of int, on systems
-   whose size_t is an unsigned long. */
-extern const char _ZTIi[];
-_Noreturn void _ZSt17__throw_bad_allocv(void);
-_Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
-void *__cxa_allocate_exception(size_t size);
-_Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
+#include "tests/faults/thrown.h"
 
 /* Called where Bullet's method is created, updated and asked. */
 #define REGISTER "_ZN27btGImpactCollisionAlgorithm17registerAlgorithmEP21btCollisionDispatcher"

@@ -4,6 +4,7 @@
 #include "datasets/letter.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
+#include "tests/faults/thrown.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -15,13 +16,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The C++ ABI names of std::bad_alloc, std::length_error and the type info of int, on systems
-   whose size_t is an unsigned long. */
-extern const char _ZTIi[];
-_Noreturn void _ZSt17__throw_bad_allocv(void);
-_Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
-void *__cxa_allocate_exception(size_t size);
-_Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
 bool __real__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
 bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
 

@@ -75,80 +75,77 @@ static mote_status fight(const char *a, const char *b, mote_bout_result *result)
     return fight_over(a, b, scenario, 1, result);
 }
 
+/* What a racer says, by where it says it, and what the bout says then. */
+static const char unread[] = "an answer that cannot be read";
+#define MANY(k) "c" #k "1=1,c" #k "2=1,c" #k "3=1,c" #k "4=1,c" #k "5=1,"
+static const struct {
+    script does;
+    const char *says;
+    bool refused;
+} wrong_answers[] = {
+    {{.cell = "say 'no\\tnot here'"}, "not here", true},
+    {{.cell = "say 'yes\\t0\\t1\\t2'"}, unread, false},
+    {{.cell = "say 'ok\\t0'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\tlong\\t2'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2 frames'"}, unread, false},
+    {{.cell = "say 'ok\\tnone\\t1\\t2'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\nmore'"}, unread, false},
+    {{.cell = "exit 3"}, "ended with status 3", false},
+    {{.cell = "kill -SEGV $$"}, "ended by signal 11", false},
+    {{.greet = "exec 0<&-; say 'mote-race\\t1'; exit 4"}, "ended with status 4", false},
+    {{.cell = "printf '%1048600d' 1; exec sleep 9"}, unread, false},
+    {{.run = "say 'no\\tnot now'"}, "not now", true},
+    {{.run = "[ $n -gt 9 ] && exit 6; say 'ok\\t1\\t-\\t" TIMES "'"}, "status 6", false},
+    {{.run = "say 'ok\\t1'"}, unread, false},
+    {{.run = "say 'ok\\t1\\t-'"}, unread, false},
+    {{.run = "say 'ok\\t1\\t-\\t5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\t-\\t5,5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\t-\\t5,soon'"}, unread, false},
+    {{.run = "say 'ok\\tnone\\t-\\t5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\tboxes\\t5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\tboxes=many\\t5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\tboxes=-1\\t5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\ta_count_of_thirty_two_characters=1\\t5,5'"}, unread, false},
+    {{.run = "say 'ok\\t1\\t" MANY(1) MANY(2) MANY(3) MANY(4) MANY(5) "z=1\\t5,5'"},
+     unread,
+     false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'no\\tforgotten'"}, "forgotten", true},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5:0'"}, unread, false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnear:0,0.5:0'"}, unread, false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5,0.5:0'"}, unread, false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1,nan:0'"}, unread, false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:x:1:2,nan:0'"},
+     unread,
+     false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0::2,nan:0'"},
+     unread,
+     false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1:2:3,nan:0'"},
+     unread,
+     false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\t5'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\tx\\tdistance\\t0\\t0'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t-1\\t0'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t0\\tnone'"}, unread, false},
+    {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\ta_question_that_is_long\\t0\\t0'"}, unread, false},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "exit 7"}, "status 7", false},
+};
+
 TEST(an_answer_that_is_wrong_ends_the_bout_and_names_its_side)
 {
-    static const char unread[] = "an answer that cannot be read";
-#define MANY(k) "c" #k "1=1,c" #k "2=1,c" #k "3=1,c" #k "4=1,c" #k "5=1,"
-    static const struct {
-        script does;
-        const char *says;
-        bool refused;
-    } rows[] = {
-        {{.cell = "say 'no\\tnot here'"}, "not here", true},
-        {{.cell = "say 'yes\\t0\\t1\\t2'"}, unread, false},
-        {{.cell = "say 'ok\\t0'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\tlong\\t2'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2 frames'"}, unread, false},
-        {{.cell = "say 'ok\\tnone\\t1\\t2'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\nmore'"}, unread, false},
-        {{.cell = "exit 3"}, "ended with status 3", false},
-        {{.cell = "kill -SEGV $$"}, "ended by signal 11", false},
-        {{.greet = "exec 0<&-; say 'mote-race\\t1'; exit 4"}, "ended with status 4", false},
-        {{.cell = "printf '%1048600d' 1; exec sleep 9"}, unread, false},
-        {{.run = "say 'no\\tnot now'"}, "not now", true},
-        {{.run = "[ $n -gt 9 ] && exit 6; say 'ok\\t1\\t-\\t" TIMES "'"}, "status 6", false},
-        {{.run = "say 'ok\\t1'"}, unread, false},
-        {{.run = "say 'ok\\t1\\t-'"}, unread, false},
-        {{.run = "say 'ok\\t1\\t-\\t5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\t-\\t5,5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\t-\\t5,soon'"}, unread, false},
-        {{.run = "say 'ok\\tnone\\t-\\t5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\tboxes\\t5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\tboxes=many\\t5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\tboxes=-1\\t5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\ta_count_of_thirty_two_characters=1\\t5,5'"}, unread, false},
-        {{.run = "say 'ok\\t1\\t" MANY(1) MANY(2) MANY(3) MANY(4) MANY(5) "z=1\\t5,5'"},
-         unread,
-         false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'no\\tforgotten'"},
-         "forgotten",
-         true},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5:0'"}, unread, false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnear:0,0.5:0'"},
-         unread,
-         false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5,0.5:0'"}, unread, false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1,nan:0'"},
-         unread,
-         false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:x:1:2,nan:0'"},
-         unread,
-         false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0::2,nan:0'"},
-         unread,
-         false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnan:1:0:1:2:3,nan:0'"},
-         unread,
-         false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\t5'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\tx\\tdistance\\t0\\t0'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t-1\\t0'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\tdistance\\t0\\tnone'"}, unread, false},
-        {{.cell = "say 'ok\\t0\\t1\\t2\\t5\\ta_question_that_is_long\\t0\\t0'"}, unread, false},
-        {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "exit 7"}, "status 7", false},
-    };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        put_racer("bad", rows[i].does);
+    for (size_t i = 0; i < ROWS_OF(wrong_answers); ++i) {
+        put_racer("bad", wrong_answers[i].does);
         for (int side = MOTE_RACE_A; side <= MOTE_RACE_B; ++side) {
             mote_bout_result result;
-            test_row("%zu, %s, side %d", i, rows[i].says, side);
+            test_row("%zu, %s, side %d", i, wrong_answers[i].says, side);
             assert_int_equal(side == MOTE_RACE_A ? fight("./bad", "./good", &result)
                                                  : fight("./good", "./bad", &result),
                              MOTE_OK);
             const mote_race_side *bad = &result.side[side], *good = &result.side[1 - side];
-            assert_non_null(strstr(bad->reason, rows[i].says));
-            assert_true(bad->refused == rows[i].refused && bad->failed == !rows[i].refused);
+            assert_non_null(strstr(bad->reason, wrong_answers[i].says));
+            assert_true(bad->refused == wrong_answers[i].refused &&
+                        bad->failed == !wrong_answers[i].refused);
             assert_false(good->refused || good->failed);
         }
     }

@@ -36,81 +36,80 @@ static int put_files(void)
 
 TEST_EACH(put_files, NULL);
 
+static const struct {
+    const char *text, *says;
+} odd_values[] = {
+    {SCENE("\"frames\": 1, \"ask\": \"impact\", \"step\": 1", DIAMOND_FILE, DIAMOND_FILE),
+     "s.json:1: ask: one frame alone; an impact is between two of them"},
+    {SCENE(FRAMES ", \"step\": 1", DIAMOND_FILE, DIAMOND_FILE),
+     "s.json:1: step: a step is of scenarios that ask for impact"},
+    {SCENE("\"frames\": 3, \"ask\": \"impact\", \"step\": 2", DIAMOND_FILE,
+           "\"positions\": \"f1.obj\""),
+     "s.json:1: ask: s: the paths of body 1's vertices between frames are not known"},
+    {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"field\": {}", DIAMOND_FILE),
+     "s.json:1: bodies[0]: either a field, a character or positions; give one of them"},
+    {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"character\": \"bar.x\"", DIAMOND_FILE),
+     "s.json:1: bodies[0]: either a field, a character or positions; give one of them"},
+    {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": 0", DIAMOND_FILE),
+     "s.json:1: bodies[0].scale: 0 is out of range"},
+    {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": [1, 2]", DIAMOND_FILE),
+     "s.json:1: bodies[0].scale: is an array of 2; give an array of 3"},
+    {SCENE(FRAMES, "\"letter\": \"W\", \"triangles\": 401, \"positions\": \"c.pc2\"",
+           DIAMOND_FILE),
+     "bodies[0].letter: "},
+    {SCENE(FRAMES, "\"letter\": \"W\", \"triangles\": 400, \"positions\": \"c.pc2\"",
+           DIAMOND_FILE),
+     "c.pc2: 25 vertices, and the mesh has "},
+    {SCENE(FRAMES, "\"file\": \"d.obj\", \"positions\": \"c.pc2\"", DIAMOND_FILE),
+     "c.pc2: 25 vertices, and the mesh has 6; give the mesh that the cache was made of"},
+    {SCENE(FRAMES, "\"file\": 3, \"positions\": \"c.pc2\"", DIAMOND_FILE),
+     "bodies[0].file: is 3; give a string"},
+    {SCENE(FRAMES, "\"positions\": 3", DIAMOND_FILE),
+     "bodies[0].positions: is 3; give a string"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": 1e16", DIAMOND_FILE),
+     "s.json:1: bodies[0].scale: 10000000000000000 is out of range"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": true", DIAMOND_FILE),
+     "bodies[0].scale: is true; give a number or an array of 3"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"field\": 3", DIAMOND_FILE),
+     "bodies[0].field: is 3; give an object"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"soft\"}", DIAMOND_FILE),
+     "bodies[0].field.kind: unknown kind soft; known are csrbf"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": 3}", DIAMOND_FILE),
+     "bodies[0].field.kind: is 3; give a string"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"stretch\", \"a\": \"b\"}",
+           DIAMOND_FILE),
+     "bodies[0].field.a: unknown key; known here are kind"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"count\": 7, \"support\": 1}", DIAMOND_FILE),
+     "bodies[0].field.count: the mesh has only 6 different positions, not 7"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"triangles\": \"400\"", DIAMOND_FILE),
+     "bodies[0].triangles: is a string; give a whole number from 400 to 20000000"},
+    {SCENE(FRAMES, DIAMOND_FILE, DIAMOND_FILE ", \"clip\": 1"),
+     "bodies[1].clip: clip without a character"},
+    {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"loop\": true", DIAMOND_FILE),
+     "bodies[0].loop: loop without a character"},
+    {SCENE(FRAMES, DIAMOND_FILE ", \"letter\": \"W\", \"positions\": \"c.pc2\"", DIAMOND_FILE),
+     "bodies[0]: a letter and a file; give one of them with the cache"},
+    {SCENE(FRAMES ", \"frames|ask\": 1", DIAMOND_FILE, DIAMOND_FILE),
+     "s.json:1: frames|ask: unknown key"},
+    {SCENE(FRAMES, "\"character\": \"bar.x\", \"scale\": 0", DIAMOND_FILE),
+     "bodies[0].scale: 0 is out of range"},
+    {SCENE(FRAMES, DIAMOND_FILE,
+           DIAMOND_FILE ", \"motion\": [{\"frame\": 2, "
+                        "\"position\": [0, 0, 0]}, {\"frame\": 2, "
+                        "\"position\": [0, 0, 0]}]"),
+     "bodies[1].motion: "},
+};
+
 TEST(scenario_of_odd_values_is_refused_with_their_place)
 {
-    static const struct {
-        const char *text, *says;
-    } rows[] = {
-        {SCENE("\"frames\": 1, \"ask\": \"impact\", \"step\": 1", DIAMOND_FILE, DIAMOND_FILE),
-         "s.json:1: ask: one frame alone; an impact is between two of them"},
-        {SCENE(FRAMES ", \"step\": 1", DIAMOND_FILE, DIAMOND_FILE),
-         "s.json:1: step: a step is of scenarios that ask for impact"},
-        {SCENE("\"frames\": 3, \"ask\": \"impact\", \"step\": 2", DIAMOND_FILE,
-               "\"positions\": \"f1.obj\""),
-         "s.json:1: ask: s: the paths of body 1's vertices between frames are not known"},
-        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"field\": {}", DIAMOND_FILE),
-         "s.json:1: bodies[0]: either a field, a character or positions; give one of them"},
-        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"character\": \"bar.x\"", DIAMOND_FILE),
-         "s.json:1: bodies[0]: either a field, a character or positions; give one of them"},
-        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": 0", DIAMOND_FILE),
-         "s.json:1: bodies[0].scale: 0 is out of range"},
-        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"scale\": [1, 2]", DIAMOND_FILE),
-         "s.json:1: bodies[0].scale: is an array of 2; give an array of 3"},
-        {SCENE(FRAMES, "\"letter\": \"W\", \"triangles\": 401, \"positions\": \"c.pc2\"",
-               DIAMOND_FILE),
-         "bodies[0].letter: "},
-        {SCENE(FRAMES, "\"letter\": \"W\", \"triangles\": 400, \"positions\": \"c.pc2\"",
-               DIAMOND_FILE),
-         "c.pc2: 25 vertices, and the mesh has "},
-        {SCENE(FRAMES, "\"file\": \"d.obj\", \"positions\": \"c.pc2\"", DIAMOND_FILE),
-         "c.pc2: 25 vertices, and the mesh has 6; give the mesh that the cache was made of"},
-        {SCENE(FRAMES, "\"file\": 3, \"positions\": \"c.pc2\"", DIAMOND_FILE),
-         "bodies[0].file: is 3; give a string"},
-        {SCENE(FRAMES, "\"positions\": 3", DIAMOND_FILE),
-         "bodies[0].positions: is 3; give a string"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": 1e16", DIAMOND_FILE),
-         "s.json:1: bodies[0].scale: 10000000000000000 is out of range"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"scale\": true", DIAMOND_FILE),
-         "bodies[0].scale: is true; give a number or an array of 3"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"field\": 3", DIAMOND_FILE),
-         "bodies[0].field: is 3; give an object"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"soft\"}", DIAMOND_FILE),
-         "bodies[0].field.kind: unknown kind soft; known are csrbf"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": 3}", DIAMOND_FILE),
-         "bodies[0].field.kind: is 3; give a string"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"kind\": \"stretch\", \"a\": \"b\"}",
-               DIAMOND_FILE),
-         "bodies[0].field.a: unknown key; known here are kind"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"field\": {\"count\": 7, \"support\": 1}",
-               DIAMOND_FILE),
-         "bodies[0].field.count: the mesh has only 6 different positions, not 7"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"triangles\": \"400\"", DIAMOND_FILE),
-         "bodies[0].triangles: is a string; give a whole number from 400 to 20000000"},
-        {SCENE(FRAMES, DIAMOND_FILE, DIAMOND_FILE ", \"clip\": 1"),
-         "bodies[1].clip: clip without a character"},
-        {SCENE(FRAMES, "\"positions\": \"f1.obj\", \"loop\": true", DIAMOND_FILE),
-         "bodies[0].loop: loop without a character"},
-        {SCENE(FRAMES, DIAMOND_FILE ", \"letter\": \"W\", \"positions\": \"c.pc2\"",
-               DIAMOND_FILE),
-         "bodies[0]: a letter and a file; give one of them with the cache"},
-        {SCENE(FRAMES ", \"frames|ask\": 1", DIAMOND_FILE, DIAMOND_FILE),
-         "s.json:1: frames|ask: unknown key"},
-        {SCENE(FRAMES, "\"character\": \"bar.x\", \"scale\": 0", DIAMOND_FILE),
-         "bodies[0].scale: 0 is out of range"},
-        {SCENE(FRAMES, DIAMOND_FILE,
-               DIAMOND_FILE ", \"motion\": [{\"frame\": 2, "
-                            "\"position\": [0, 0, 0]}, {\"frame\": 2, "
-                            "\"position\": [0, 0, 0]}]"),
-         "bodies[1].motion: "},
-    };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+    for (size_t i = 0; i < ROWS_OF(odd_values); ++i) {
         mote_scenario *scenario = NULL;
-        test_row("%s", rows[i].text);
-        file_put("s.json", rows[i].text);
+        test_row("%s", odd_values[i].text);
+        file_put("s.json", odd_values[i].text);
         assert_int_equal(mote_scenario_load("s.json", &scenario), MOTE_EINVAL);
         const char *text = mote_error_text();
         /* Its place is told once. */
-        if (!strstr(text, rows[i].says) || strncmp(text, "s.json:1: ", 10) != 0 ||
+        if (!strstr(text, odd_values[i].says) || strncmp(text, "s.json:1: ", 10) != 0 ||
             strstr(text + 1, "s.json:1: "))
             fail_msg("%s", text);
         assert_null(scenario);
