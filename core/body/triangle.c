@@ -501,9 +501,10 @@ static inline bool centres_separate(const mote_vec3 s[3], const mote_vec3 t[3],
 static double triangles_scaled(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared,
                                int power, mote_vec3 *p, mote_vec3 *q)
 {
-    mote_vec3 a[3], b[3], on_a, on_b;
+    mote_vec3 a[3], b[3];
     mote_scale_points(s, 3, power, a);
     mote_scale_points(t, 3, power, b);
+    mote_vec3 on_a = a[0], on_b = b[0];
     const double squared =
         mote_unscaled_squared(mote_triangle_triangle(a, b, &on_a, &on_b), power);
     if (squared >= bound_squared && squared > 0)
@@ -605,13 +606,12 @@ double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest
     if (power != 0)
         return point_scaled(p, t, power, closest);
     face f = make_face(t);
-    candidate c;
+    candidate c = {.squared = HUGE_VAL, .q = t[0]}; /* all, where p is not finite */
     bool flat = f.nn <= FLAT_SINE_SQUARED * f.ee;
     if (!flat && drop_vertex(&f, p, false, &c)) {
         set(closest, c.q);
         return c.squared;
     }
-    c.squared = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
         mote_vec3 w = mote_sub(p, t[k]), d = mote_sub(t[k < 2 ? k + 1 : 0], t[k]);
         double x = project_segment(d, w),

@@ -4,9 +4,10 @@
 #include "harness/base/clock.h"
 #include "harness/base/memory.h"
 
+#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A scene of the bodies that have fields. */
 static mote_status build_scene(mote_engine *e, const mote_scene_options *options)
@@ -59,13 +60,16 @@ void mote_engine_destroy_near(mote_engine *e)
 
 mote_status mote_engine_blame(mote_status status, uint32_t i)
 {
+    static const char word[] = "body ";
     const char *text = mote_error_text();
-    unsigned number;
-    int length = 0;
-    if (status == MOTE_OK || sscanf(text, "body %u%n", &number, &length) != 1)
+    if (status == MOTE_OK || strncmp(text, word, strlen(word)) != 0)
         return status;
-    return mote_fail(status, "body %u%s", (i == MOTE_ENGINE_SAME ? number : i) + 1,
-                     text + length);
+    const char *digits = text + strlen(word);
+    if (!isdigit((unsigned char)*digits))
+        return status;
+    char *rest;
+    const uint32_t number = (uint32_t)strtoul(digits, &rest, 10);
+    return mote_fail(status, "body %u%s", (i == MOTE_ENGINE_SAME ? number : i) + 1, rest);
 }
 
 /* The box of given positions. */

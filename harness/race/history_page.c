@@ -152,8 +152,8 @@ static char *title_of(const page *p, const mote_race_name *row, const mote_histo
     bool others = false;
     for (size_t i = 0; i < p->races.name_count; ++i) {
         char *key = mote_race_row_key(p->races.names[i].name, "");
-        others =
-            others || (strcmp(key, own) == 0 && strcmp(p->races.names[i].asked, row->asked));
+        others = others ||
+                 (strcmp(key, own) == 0 && strcmp(p->races.names[i].asked, row->asked) != 0);
         free(key);
     }
     free(own);
