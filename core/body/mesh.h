@@ -19,6 +19,11 @@ extern "C" {
 #define MOTE_RING_END 0x80000000u
 #define MOTE_RING_VERTEX(entry) ((entry) & ~MOTE_RING_END)
 
+/* L of a mesh is in this range, in which squares of distances from L down to what rounding
+   leaves of them are normal numbers. */
+#define MOTE_LENGTH_MIN 1e-130
+#define MOTE_LENGTH_MAX 1e130
+
 /* There are fewer than 2^31 vertices. The ring of vertex v is the entries ring[ring_start[v]]
    .. ring[ring_start[v + 1] - 1], each neighbour of v once per fan, in order around v. Two
    consecutive entries k, k + 1 and v form a triangle unless entry k has MOTE_RING_END; the last
@@ -37,7 +42,7 @@ typedef struct mote_mesh {
     uint32_t edge_count;
     uint32_t open_edge_count; /* edges with one triangle; 0 when the surface is closed */
     mote_vec3 low, high;      /* bounding box at rest */
-    double diagonal;          /* L: length of the box's diagonal; > 0 */
+    double diagonal;          /* L: length of the box's diagonal */
     double mean_edge;         /* mean length of an edge at rest */
 } mote_mesh;
 
@@ -45,7 +50,7 @@ typedef struct mote_mesh {
    copied. MOTE_EINVAL, with a text that names the vertex, face or edge: no triangle, 2^31
    vertices or 2^31 / 3 triangles or more, a coordinate that is not finite, an index out of
    range, a face with two equal indices, an edge with more than two faces, a vertex in no face,
-   no extent (L = 0), an L below the normal numbers or above the largest. MOTE_ENOMEM. Faces of
+   no extent (L = 0), an L below MOTE_LENGTH_MIN or above MOTE_LENGTH_MAX. MOTE_ENOMEM. Faces of
    zero area are allowed, and so are faces wound differently. Cost O(v + t). The caller destroys
    *mesh. */
 mote_status mote_mesh_create(const double *xyz, size_t vertex_count, const uint32_t *indices,

@@ -1,7 +1,6 @@
 /* Checking the faces and vertices of a mesh, and measuring it. */
 #include "core/body/mesh_ring.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,11 +87,11 @@ static mote_status measure_extent(mote_mesh *mesh)
     const mote_vec3 unit = mote_vec3_make(ldexp(half.x, -exponent), ldexp(half.y, -exponent),
                                           ldexp(half.z, -exponent));
     mesh->diagonal = ldexp(mote_length(unit), exponent + 1);
-    if (!isnormal(mesh->diagonal))
+    if (!(mesh->diagonal >= MOTE_LENGTH_MIN && mesh->diagonal <= MOTE_LENGTH_MAX))
         return mote_fail(MOTE_EINVAL,
-                         "the bounding-box diagonal is %.3g; it must be a normal number, from "
-                         "%.2g to %.2g",
-                         mesh->diagonal, DBL_MIN, DBL_MAX);
+                         "the bounding-box diagonal is %.3g; it must be from %g to %g, since "
+                         "distances are squared; use another unit of length",
+                         mesh->diagonal, MOTE_LENGTH_MIN, MOTE_LENGTH_MAX);
     return MOTE_OK;
 }
 

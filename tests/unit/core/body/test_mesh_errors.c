@@ -121,24 +121,27 @@ TEST(create_without_extent_is_an_error)
     expect_error(s, "all vertices coincide; a mesh needs an extent");
 }
 
+/* Squares of distances between such bodies are no normal numbers. */
 TEST(create_with_an_extent_out_of_range_is_an_error)
 {
-    solid s = solid_tetrahedron();
-    for (size_t i = 0; i < 12; ++i)
-        s.xyz[i] *= 1.7e308;
-    expect_error(s,
-                 "the bounding-box diagonal is inf; it must be a normal number, from 2.2e-308 "
-                 "to 1.8e+308");
-    s = solid_tetrahedron();
-    for (size_t i = 0; i < 12; ++i)
-        s.xyz[i] *= 1e-310;
-    expect_error(
-        s, "the bounding-box diagonal is 3.46e-310; it must be a normal number, from 2.2e-308 "
-           "to 1.8e+308");
-    s = solid_triangle();
-    for (size_t i = 0; i < 9; ++i)
-        s.xyz[i] *= 2 * DBL_TRUE_MIN; /* 6 and 8 times the smallest positive double */
-    expect_error(
-        s, "the bounding-box diagonal is 4.94e-323; it must be a normal number, from 2.2e-308 "
-           "to 1.8e+308");
+    static const struct {
+        double size;
+        const char *extent;
+    } rows[] = {{1.7e308, "inf"},
+                {3e129, "1.04e+130"},
+                {2.8e-131, "9.7e-131"},
+                {1e-310, "3.46e-310"},
+                {4 * DBL_TRUE_MIN, "6.92e-323"}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char expected[160];
+        solid s = solid_tetrahedron();
+        test_row("coordinates of %g", rows[i].size);
+        for (size_t k = 0; k < 12; ++k)
+            s.xyz[k] *= rows[i].size;
+        (void)snprintf(expected, sizeof expected,
+                       "the bounding-box diagonal is %s; it must be from 1e-130 to 1e+130, "
+                       "since distances are squared; use another unit of length",
+                       rows[i].extent);
+        expect_error(s, expected);
+    }
 }

@@ -257,20 +257,20 @@ TEST(mote_impact_query_gap_below_the_noise_of_the_piece_that_follows)
     impact_scene_free(&s);
 }
 
-/* Of bodies so large that the path's acceleration is no number any more: no sweeps, and the
-   same impact. */
+/* Of a path so long that its acceleration is no number any more: no sweeps, and the same impact
+   at a distance against which the bodies are small. */
 TEST(mote_impact_query_acceleration_that_overflows)
 {
-    static const double control[] = {5, 8, 4, 1}; /* x, in units of 1e153: faces meet at 1 */
+    static const double control[] = {4, 7, 3, 0}; /* x, in units of 1e153 */
     impact_scene s;
-    two_boxes(&s, 1e153, 1e153, 0);
+    two_boxes(&s, 1e129, 1e129, 0);
     for (int i = 0; i < 4; ++i)
         s.of[1].piece[0].centre[i] = mote_vec3_make(control[i] * 1e153, 0, 0);
     double low = 0, high = 1;
     for (int k = 0; k < 60; ++k) {
         const double t = 0.5 * (low + high), u = 1 - t;
-        const double x = 5 * u * u * u + 24 * t * u * u + 12 * t * t * u + t * t * t;
-        *(x > 1.5 ? &low : &high) = t;
+        const double x = 4 * u * u * u + 21 * t * u * u + 9 * t * t * u;
+        *(x > 0.5 ? &low : &high) = t;
     }
     const mote_impact_found found = impact_ask(&s, impact_question(&s, 0.5e153));
     assert_true(isinf(s.search->rates[0].acceleration));

@@ -97,6 +97,48 @@ TEST(automatic_number_of_one_mesh_twice_is_that_of_one)
     scene_free(&s);
 }
 
+/* Bodies as small and as large as a mesh may be, times a power of two: the same bits, in
+   contact too. */
+TEST(answers_at_the_ends_of_lengths_are_those_of_usual_lengths)
+{
+    static const char *const names[] = {"certified", "stream", "auto", "particle",
+                                        "particle-paper"};
+    static const int powers[] = {-430, -330, -260, 260, 330, 429};
+    int contacts = 0;
+    for (size_t i = 0; i < ROWS_OF(powers); ++i) {
+        scene usual, extreme;
+        method_run of_usual[ROWS_OF(names)], of_extreme[ROWS_OF(names)];
+        scene_init(&usual, 16, 9, 1, true);
+        scene_init(&extreme, 16, 9, ldexp(1, powers[i]), true);
+        for (size_t m = 0; m < ROWS_OF(names); ++m) {
+            method_run_init(&of_usual[m], names[m], "",
+                            scene_setup(&usual, MOTE_ASK_DISTANCE, 0, NULL));
+            method_run_init(&of_extreme[m], names[m], "",
+                            scene_setup(&extreme, MOTE_ASK_DISTANCE, 0, NULL));
+        }
+        for (int k = 0; k < 12; ++k) {
+            const mote_frame *frame = scene_next(&usual, 1.2, false);
+            const mote_frame *scaled = scene_next(&extreme, 1.2, false);
+            for (size_t m = 0; m < ROWS_OF(names); ++m) {
+                test_row("%s, 2^%d, frame %d", names[m], powers[i], k);
+                const mote_answer a = method_run_ask(&of_usual[m], frame);
+                const mote_answer b = method_run_ask(&of_extreme[m], scaled);
+                assert_true(b.distance == ldexp(a.distance, powers[i]));
+                assert_true(b.lower == ldexp(a.lower, powers[i]));
+                assert_int_equal(b.contact, a.contact);
+                contacts += a.contact;
+            }
+        }
+        for (size_t m = 0; m < ROWS_OF(names); ++m) {
+            method_run_free(&of_usual[m]);
+            method_run_free(&of_extreme[m]);
+        }
+        scene_free(&usual);
+        scene_free(&extreme);
+    }
+    assert_true(contacts > 60);
+}
+
 /* A cached influence does not outlive a query without coherence. */
 TEST(far_cache_without_coherence_answers_the_same_again)
 {
