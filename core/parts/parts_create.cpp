@@ -3,6 +3,7 @@
 #include "core/parts/parts_hacd.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -24,13 +25,24 @@ constexpr uint32_t NO_LABEL = UINT32_MAX;
 /* A component is not simplified to fewer triangles than this. */
 constexpr size_t COMPONENT_TRIANGLES = 100;
 
+/* The power of two that brings the extent of points to about 1, so that volumes stay numbers.
+ */
+double unit_of(const mote_vec3 *points, uint32_t count)
+{
+    double half = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        half = std::max(half, mote_largest_coordinate(mote_sub(mote_scale(points[i], 0.5),
+                                                               mote_scale(points[0], 0.5))));
+    return half > 0 ? std::ldexp(1, -std::ilogb(std::max(half, DBL_MIN))) : 1;
+}
+
 /* The decomposition of a mesh, one connected component after another. */
 class Decomposition
 {
   public:
     Decomposition(const mote_mesh *mesh_, const mote_vec3 *positions_)
         : label(mesh_->vertex_count, NO_LABEL), mesh(mesh_), positions(positions_),
-          number(mesh_->vertex_count, NO_LABEL)
+          unit(unit_of(positions_, mesh_->vertex_count)), number(mesh_->vertex_count, NO_LABEL)
     {
     }
 
@@ -51,6 +63,7 @@ class Decomposition
 
     const mote_mesh *mesh;
     const mote_vec3 *positions;
+    double unit;
     std::vector<uint32_t> number; /* of a vertex among a component's points; else NO_LABEL */
     std::vector<float> xyz;       /* the positions for meshoptimizer, once needed */
 };
@@ -117,7 +130,7 @@ Component Decomposition::component_of(const Corners &corners)
         if (number[v] != NO_LABEL)
             continue;
         number[v] = static_cast<uint32_t>(component.points.size());
-        component.points.push_back(positions[v]);
+        component.points.push_back(mote_scale(positions[v], unit));
     }
     for (size_t i = 0; i + 2 < corners.size(); i += 3)
         component.faces.push_back(

@@ -269,8 +269,9 @@ TEST(parts_create_again_or_scaled_gives_the_same_labels)
     mote_mesh scaled = *mesh;
     mote_vec3 *positions = malloc(mesh->vertex_count * sizeof *positions);
     assert_non_null(positions);
-    static const double scales[] = {1, 0x1p-40, 0x1p40};
-    for (int i = 0; i < 3; ++i) {
+    static const double scales[] = {1, 0x1p-40, 0x1p40, 0x1p-200, 0x1p-428, 0x1p200, 0x1p428};
+    for (size_t i = 0; i < ROWS_OF(scales); ++i) {
+        test_row("lengths times %g", scales[i]);
         for (uint32_t v = 0; v < mesh->vertex_count; ++v)
             positions[v] = mote_scale(mesh->positions[v], scales[i]);
         scaled.diagonal = mesh->diagonal * scales[i];
