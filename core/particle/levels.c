@@ -310,7 +310,7 @@ static void measure_spacing(const mote_levels *levels, const mote_mesh *mesh, mo
         }
     }
     const uint32_t links = level->start[level->count];
-    level->spacing = links ? sum / links : 0;
+    level->spacing = links ? sum / links : mesh->diagonal;
 }
 
 mote_status mote_levels_create(const mote_mesh *mesh, mote_levels **levels)

@@ -22,7 +22,8 @@ typedef struct mote_level {
     uint32_t count;
     uint32_t *start;     /* [count + 1] */
     uint32_t *neighbour; /* [start[count]] */
-    double spacing;      /* mean distance of neighbours at rest, in the mesh's unit */
+    double spacing;      /* mean distance of neighbours at rest, in the mesh's unit; L where no
+                            node has any */
 } mote_level;
 
 /* Node i of a level is node i of every finer one; the finest level has index 0. */

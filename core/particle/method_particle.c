@@ -145,14 +145,11 @@ static void destroy(void *state)
 static mote_status query(void *state, const mote_frame *frame, mote_answer *answer)
 {
     particle_state *s = state;
-    const double enough = s->tolerance * s->tolerance;
-    /* Searches ignore what is not nearer, beyond their rounding: the tolerance itself counts.
-     */
-    const double worth = nextafter(enough * (1 + 4e-12), HUGE_VAL);
+    const double tolerance_squared = s->tolerance * s->tolerance;
     const bool only_contact = s->ask == MOTE_ASK_CONTACT;
     mote_refined best;
-    mote_tracker_query(s->tracker, frame, s->given, only_contact ? worth : HUGE_VAL,
-                       only_contact ? enough : 0, &answer->counters, &best);
+    mote_tracker_query(s->tracker, frame, s->given, only_contact ? tolerance_squared : HUGE_VAL,
+                       only_contact ? tolerance_squared : 0, &answer->counters, &best);
     answer->has_contact = true;
     answer->contact = sqrt(best.squared) <= s->tolerance;
     if (only_contact)

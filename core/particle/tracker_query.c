@@ -2,6 +2,7 @@
    for the next query. */
 #include "core/particle/tracker_state.h"
 
+#include <float.h>
 #include <string.h>
 
 /* Relative motion since the last query, in units of L, from which on only the minima of that
@@ -36,6 +37,13 @@ static void add_motion(mote_request *r, double motion)
     }
 }
 
+/* An exact check only looks for pairs of faces that are nearer than a bound by 1e-12 of it:
+   this one lets it find those that are just as far, and those that meet. */
+static double just_beyond(double squared)
+{
+    return squared * (1 + 1e-11) + DBL_MIN;
+}
+
 static void remember(mote_request *r)
 {
     mote_tracker *t = r->tracker;
@@ -56,7 +64,7 @@ void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use
                         mote_refined *best)
 {
     mote_request r = {.tracker = tracker,
-                      .worth_squared = worth_squared,
+                      .worth_squared = just_beyond(worth_squared),
                       .enough_squared = enough_squared,
                       .nearest_squared = HUGE_VAL,
                       .counters = counters,

@@ -352,9 +352,7 @@ static void refine_candidates(mote_request *r)
                                r->enough_squared, &result))
             continue;
         keep_result(r, &result);
-        const mote_pair end = result_candidate(r, &result);
-        for (int b = 0; b < 2; ++b)
-            c->vertex[b] = end.vertex[b];
+        *c = result_candidate(r, &result);
     }
 }
 

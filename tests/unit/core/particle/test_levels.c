@@ -160,6 +160,19 @@ TEST(create_mesh_as_large_as_may_be_as_defined)
     check_levels(solid_to_mesh(s));
 }
 
+/* A level of one node has no neighbours, the distance of which would say how near a descent
+   from it can come. */
+TEST(create_level_without_neighbours_has_the_spacing_of_the_body)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_tetrahedron());
+    mote_levels *levels = levels_of(mesh);
+    assert_int_equal(levels->depth, 1);
+    assert_int_equal(levels->level[0].count, 1);
+    assert_true(levels->level[0].spacing == mesh->diagonal);
+    mote_levels_destroy(levels);
+    mote_mesh_destroy(mesh);
+}
+
 TEST(create_many_components_as_defined)
 {
     solid s = solid_join(solid_torus(20, 9), solid_icosphere(2), 4);
