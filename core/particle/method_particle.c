@@ -150,12 +150,16 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     mote_refined best;
     mote_tracker_query(s->tracker, frame, s->given, only_contact ? tolerance_squared : HUGE_VAL,
                        only_contact ? tolerance_squared : 0, &answer->counters, &best);
+    const double distance = sqrt(best.squared);
+    const mote_status status = only_contact ? MOTE_OK : mote_refuse_infinite(distance);
+    if (status != MOTE_OK)
+        return status;
     answer->has_contact = true;
-    answer->contact = sqrt(best.squared) <= s->tolerance;
+    answer->contact = distance <= s->tolerance;
     if (only_contact)
         return MOTE_OK;
     answer->has_distance = answer->has_witness = true;
-    answer->distance = sqrt(best.squared);
+    answer->distance = distance;
     answer->witness[0] = best.witness[0];
     answer->witness[1] = best.witness[1];
     return MOTE_OK;

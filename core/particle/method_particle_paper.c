@@ -261,6 +261,9 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     answer->distance = sqrt(mote_particles_closest(s->particles, pair));
     answer->witness[0] = mote_particles_position(s->particles, 0, pair[0]);
     answer->witness[1] = mote_particles_position(s->particles, 1, pair[1]);
+    const mote_status status = mote_refuse_infinite(answer->distance);
+    if (status != MOTE_OK)
+        return status;
     const bool known = s->ask == MOTE_ASK_CONTACT && answer->distance <= s->contact_distance;
     if (s->refine != REFINE_NO && !known)
         refine_pair(s, pair, answer);

@@ -80,6 +80,17 @@ static double near_distance(const mote_body *const bodies[2])
     return 8 * fmax(bodies[0]->mesh->mean_edge, bodies[1]->mesh->mean_edge);
 }
 
+/* Floats hold numbers from 1e-38 to 1e38, and a margin is left for positions. */
+static mote_status check_single(double length)
+{
+    if (length >= 1e-30 && length <= 1e30)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "positions in single precision need an L from 1e-30 to 1e30, not %g; use "
+                     "double precision, or another unit of length",
+                     length);
+}
+
 mote_status mote_particles_create(const mote_body *const bodies[2], double length,
                                   const mote_particles_options *options,
                                   mote_particles **particles)
@@ -90,7 +101,7 @@ mote_status mote_particles_create(const mote_body *const bodies[2], double lengt
     made->options = *options;
     made->length = length;
     made->inverse_square_length = 1 / length / length;
-    mote_status status = MOTE_OK;
+    mote_status status = options->single ? check_single(length) : MOTE_OK;
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
         /* Checked before anything is allocated by it. */
         if (options->count < 1 || options->count > bodies[b]->mesh->vertex_count)

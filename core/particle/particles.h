@@ -36,7 +36,8 @@ mote_particles_options mote_default_particles_options(void);
 typedef struct mote_particles mote_particles;
 
 /* Places the particles. bodies and what they point to are borrowed; length is L of the pair.
-   Errors as mote_start_vertices. Cost O(v) for random starts, O(n v) for farthest points. */
+   Errors as mote_start_vertices, and MOTE_EINVAL for an L outside of 1e-30 .. 1e30 in single
+   precision. Cost O(v) for random starts, O(n v) for farthest points. */
 mote_status mote_particles_create(const mote_body *const bodies[2], double length,
                                   const mote_particles_options *options,
                                   mote_particles **particles);

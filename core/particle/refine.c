@@ -6,6 +6,7 @@
 
 #include "core/body/triangle.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A pair counts as nearer only if it is by more than this part of the distance. */
@@ -574,4 +575,12 @@ void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3]
     s.checked[0] = s.checked[1] = NONE;
     if (!done(&s) && check_around(&s))
         descend(&s);
+}
+
+mote_status mote_refuse_infinite(double distance)
+{
+    if (isfinite(distance))
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "the bodies are too far apart to square their distance, or "
+                                  "their positions are not finite");
 }

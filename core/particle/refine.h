@@ -53,6 +53,10 @@ void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3]
    Takes a fraction of the time of mote_refine_triangles. */
 void mote_refine_slide(mote_lazy *const lazy[2], double enough_squared, mote_refined *best);
 
+/* MOTE_EINVAL for a distance that is no number, or infinite: of bodies so far apart that its
+   square is no double, or of positions that are not finite. */
+mote_status mote_refuse_infinite(double distance);
+
 #ifdef __cplusplus
 }
 #endif

@@ -3,6 +3,7 @@
 #include "core/particle/tracker_state.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* Relative motion since the last query, in units of L, from which on only the minima of that
@@ -25,6 +26,8 @@
 static void add_motion(mote_request *r, double motion)
 {
     mote_tracker *t = r->tracker;
+    if (!isfinite(motion)) /* as far as nothing is known: it would be added for good */
+        motion = t->length;
     const double part = motion / (ROUND_MOTION * t->length);
     r->cold = motion >= COLD_MOTION * t->length;
     t->travelled += motion;

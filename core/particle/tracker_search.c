@@ -44,11 +44,13 @@ static double distance_to_beat(const mote_request *r)
     return sqrt(fmin(fmin(r->best->squared, r->worth_squared), r->nearest_squared));
 }
 
-/* True if a minimum that was found earlier may have come near enough since. */
+/* True if a minimum that was found earlier may have come near enough since; also where the
+   frame in which it was found had positions that are no numbers. */
 static bool worth_following(const mote_request *r, const mote_pair *c)
 {
     const double since = r->tracker->travelled - c->travelled;
-    return sqrt(c->squared) - mote_pair_edges(c) - MOTION_MARGIN * since <= distance_to_beat(r);
+    return !(sqrt(c->squared) - mote_pair_edges(c) - MOTION_MARGIN * since >
+             distance_to_beat(r));
 }
 
 /* Estimates whether an exact check of two vertices can come below the best distance. Walks are
@@ -232,11 +234,12 @@ static void launch(mote_request *r, int b, uint32_t i)
         keep_places(r, at, squared);
 }
 
-/* False if a launch ended so far away that it can hardly be nearer by now. */
+/* False if a launch ended so far away that it can hardly be nearer by now; true also where it
+   ended at no number. */
 static bool worth_launching(const mote_request *r, const mote_outcome *last)
 {
     const double since = r->tracker->travelled - last->travelled;
-    return last->least - MOTION_MARGIN * since <= distance_to_beat(r);
+    return !(last->least - MOTION_MARGIN * since > distance_to_beat(r));
 }
 
 /* Launches the first n seeds of each body when cold, otherwise those whose turn it is. */

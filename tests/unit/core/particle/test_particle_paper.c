@@ -343,3 +343,43 @@ TEST(create_with_fewer_particles_than_components_is_unsupported)
     assert_null(r.state);
     scene_close(&s);
 }
+
+/* No double holds the square of such a distance. */
+TEST(query_of_bodies_too_far_apart_is_refused)
+{
+    particle_scene s;
+    scene_open(&s, solid_icosphere(1), solid_icosphere(0), 0, 1);
+    paper_run r;
+    start_run(&r, &s, "n=12");
+    for (int k = 0; k < 4; ++k) {
+        scene_next(&s, k % 2 ? 1e200 : 3);
+        mote_answer answer = {0};
+        const mote_status status = r.method->query(r.state, &s.frame, &answer);
+        assert_int_equal(status, k % 2 ? MOTE_EINVAL : MOTE_OK);
+        assert_int_equal(answer.has_distance, k % 2 == 0);
+    }
+    assert_non_null(strstr(mote_error_text(), "too far apart to square their distance"));
+    r.method->destroy(r.state);
+    scene_close(&s);
+}
+
+/* Positions of larger or smaller bodies are no floats. */
+TEST(single_precision_of_lengths_beyond_floats_is_refused)
+{
+    static const double units[] = {1e-31, 1e-29, 1e29, 1e30, 1e40};
+    for (size_t i = 0; i < ROWS_OF(units); ++i) {
+        const bool refused = units[i] < 1e-30 || units[i] > 1e29;
+        particle_scene s;
+        scene_open(&s, solid_icosphere(1), solid_icosphere(0), 0, units[i]);
+        paper_run r;
+        test_row("L = %g", s.length);
+        assert_int_equal(try_run(&r, &s, "n=6,precision=single"),
+                         refused ? MOTE_EINVAL : MOTE_OK);
+        if (refused)
+            assert_non_null(strstr(mote_error_text(), "need an L from 1e-30 to 1e30"));
+        r.method->destroy(r.state);
+        start_run(&r, &s, "n=6");
+        r.method->destroy(r.state);
+        scene_close(&s);
+    }
+}

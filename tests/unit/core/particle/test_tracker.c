@@ -135,6 +135,37 @@ TEST(query_after_teleport_as_good_as_new)
     scene_free(&s);
 }
 
+/* Bodies so far apart that no double holds the square of their distance, and positions that are
+   no numbers, are refused, and what follows is answered as if they had not been. */
+TEST(query_without_a_distance_is_refused_and_forgotten)
+{
+    static const double far[] = {1e200, HUGE_VAL, (double)NAN};
+    for (size_t i = 0; i < ROWS_OF(far); ++i) {
+        scene s;
+        scene_init(&s, 24, 12, 1, true);
+        method_run u;
+        int exact = 0;
+        test_row("%g away", far[i]);
+        tracker_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+        for (int k = 0; k < 120; ++k) {
+            mote_frame frame = *smooth_frame(&s, 0.5);
+            if (k == 20) {
+                mote_answer answer = {0};
+                frame.body[1].pose.translation.x += far[i];
+                assert_int_equal(u.method->query(u.state, &frame, &answer), MOTE_EINVAL);
+                assert_non_null(strstr(mote_error_text(), "too far apart"));
+                assert_false(answer.has_distance || answer.has_contact);
+                continue;
+            }
+            const mote_answer a = method_run_ask(&u, &frame);
+            exact += fabs(a.distance - scene_truth(&s)) <= 1e-12 * s.length;
+        }
+        assert_true(exact >= 117);
+        method_run_free(&u);
+        scene_free(&s);
+    }
+}
+
 TEST(query_same_frames_same_bits)
 {
     mote_answer answers[2][40];
