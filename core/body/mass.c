@@ -2,6 +2,7 @@
 
 #include "core/base/linear_algebra.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 /* A volume below this part of the sum of the tetrahedra's absolute volumes is taken for
@@ -126,8 +127,10 @@ mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *
     made.centre = mote_add_scaled(middle, length, centre);
     made.inertia =
         mote_scale(made.inertia, density * length * length * length * length * length);
-    /* The moments are ascending: the first and the last decide. */
-    if (!is_positive(made.mass) || !is_positive(made.inertia.x) || !isfinite(made.inertia.z))
+    /* The moments are ascending: the first and the last decide. One that is subnormal has lost
+       digits. */
+    if (!(made.mass >= DBL_MIN && made.inertia.x >= DBL_MIN) || !isfinite(made.mass) ||
+        !isfinite(made.inertia.z))
         return mote_fail(
             MOTE_EINVAL,
             "mass %g with principal moments %g, %g, %g is not that of a solid; the "

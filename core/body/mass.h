@@ -24,7 +24,7 @@ typedef struct mote_mass {
    component. A mesh whose faces all point inwards is accepted as if they pointed outwards; a
    component inside another one and wound the other way is a cavity. MOTE_EINVAL with the
    reason: an open mesh, inconsistent winding at an edge, no volume (flat, or components that
-   cancel), a bad density, a mesh so large or small that a result is not a positive finite
+   cancel), a bad density, a mesh so large or small that a result is not a positive normal
    number; MOTE_ENUMERIC, where the principal axes of such a mesh cannot be found; MOTE_ENOMEM.
    Not by two threads at a time, since GSL's error handler is off meanwhile. Rounding errors:
    about 1e-15 of the moments of the tetrahedra about the middle of the mesh's box. Cost O(t log

@@ -239,6 +239,7 @@ TEST(mass_of_mesh_bad_input_refused_with_reason)
         {solid_box(1, 1, 1), HUGE_VAL, "density inf"},
         {solid_box(1e100, 1e100, 1e100), 1, "moderate size"},
         {solid_box(1e-100, 1e-100, 1e-100), 1, "moderate size"},
+        {solid_box(1e-64, 1e-64, 1e-64), 1, "moderate size"}, /* moments of 1.7e-321 */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         mote_mesh *mesh = solid_to_mesh(cases[i].shape);
