@@ -1,5 +1,7 @@
 #include "core/motion/response.h"
 
+#include <float.h>
+
 double mote_effective_mass(const mote_mass *mass, const mote_rigid_state *state, mote_vec3 arm,
                            mote_vec3 normal)
 {
@@ -17,9 +19,29 @@ double mote_velocity_along(const mote_mass *mass, const mote_rigid_state *state,
     return mote_dot(state->velocity, normal) + mote_dot(mote_cross(w, arm), normal);
 }
 
+/* Effective masses times the power of two that brings the larger to 1 .. 2, which this returns:
+   products stay in range. */
+static double scale_masses(const double effective_mass[2], double scaled[2])
+{
+    const double larger = fmax(effective_mass[0], effective_mass[1]);
+    const double unit = ldexp(1, -ilogb(fmax(larger, DBL_MIN)));
+    scaled[0] = effective_mass[0] * unit;
+    scaled[1] = effective_mass[1] * unit;
+    return unit;
+}
+
+/* The mass that resists a change of the relative velocity. */
+static double reduced_mass(const double effective_mass[2])
+{
+    double m[2];
+    const double unit = scale_masses(effective_mass, m);
+    return m[0] * m[1] / (m[0] + m[1]) / unit;
+}
+
 void mote_pulses_after(const double effective_mass[2], const double pulse[2], double after[2])
 {
-    const double *m = effective_mass;
+    double m[2];
+    (void)scale_masses(effective_mass, m);
     const double sum = m[0] + m[1];
     after[0] = ((m[0] - m[1]) * pulse[0] + 2 * m[0] * pulse[1]) / sum;
     after[1] = ((m[1] - m[0]) * pulse[1] + 2 * m[1] * pulse[0]) / sum;
@@ -67,7 +89,7 @@ mote_status mote_respond_deforming(const mote_mass *const mass[2], mote_vec3 poi
         mote_pulses_after(effective, pulse, after);
         /* The two changes are opposite except for rounding; one is used for both bodies. */
         made.pulse = (1 + restitution) / 2 * (after[1] - pulse[1]);
-        const double reduced = effective[0] * effective[1] / (effective[0] + effective[1]);
+        const double reduced = reduced_mass(effective);
         made.energy =
             (1 - restitution * restitution) / 2 * reduced * made.closing * made.closing;
         /* the impulse p = (1 + e) m (closing + own) takes p closing - p^2 / (2 m) in all */

@@ -54,17 +54,26 @@ double mote_rigid_kinetic_energy(const mote_mass *mass, const mote_rigid_state *
            mote_dot(state->angular_momentum, w) / 2;
 }
 
+/* The power of two that brings a size to 1 .. 2; 1 for a size of 0. */
+static double unit_of(double size)
+{
+    return size > 0 ? ldexp(1, -ilogb(fmax(size, DBL_MIN))) : 1;
+}
+
 /* The rotation of a step in principal axes: Cayley's map of w step for the angular velocity at
    the midpoint, w = I^-1 (m + m') / 2, where m' is m in the rotated axes. Then m' - m = step
    (m + m') / 2 x w: the midpoint rule for Euler's equations, which preserves their two
    quadratic invariants and the angular momentum in the world. */
-static mote_quaternion turn_of_step(const mote_mass *mass, mote_vec3 m, double step)
+static mote_quaternion turn_of_step(const mote_mass *mass, mote_vec3 momentum, double step)
 {
+    /* Momentum and inertia times a power of two: squares of the momentum stay in range. */
+    const double unit = unit_of(mote_largest_coordinate(momentum));
+    const mote_vec3 m = mote_scale(momentum, unit), inertia = mote_scale(mass->inertia, unit);
     const double close = 4 * DBL_EPSILON * DBL_EPSILON * mote_length_squared(m);
     mote_quaternion turn = {1, 0, 0, 0};
     mote_vec3 after = m;
     for (int i = 0; i < MOST_ITERATIONS; ++i) {
-        const mote_vec3 half = mote_scale(divide(mote_add(m, after), mass->inertia), step / 4);
+        const mote_vec3 half = mote_scale(divide(mote_add(m, after), inertia), step / 4);
         const mote_quaternion cayley = {1, half.x, half.y, half.z};
         turn = mote_quaternion_normalise(cayley);
         const mote_mat3 matrix = mote_quaternion_matrix(turn);

@@ -260,6 +260,33 @@ TEST(respond_equal_balls_exchange_velocities)
     assert_close(mote_length(c.state[0].angular_momentum), 0, 0);
 }
 
+/* Masses of which the product is no number: the same velocities, and impulses and energies
+   times the masses' factor. */
+TEST(respond_at_every_mass_changes_velocities_the_same)
+{
+    static const int powers[] = {-900, -540, -500, 510, 540, 900};
+    uint64_t seed = 9;
+    for (size_t i = 0; i < 20 * ROWS_OF(powers); ++i) {
+        const int power = powers[i % ROWS_OF(powers)];
+        const double factor = ldexp(1, power);
+        collision usual = random_collision(&seed);
+        collision heavy = usual;
+        test_row("collision %zu, masses times 2^%d", i, power);
+        for (int b = 0; b < 2; ++b) {
+            heavy.mass[b].mass *= factor;
+            heavy.mass[b].inertia = mote_scale(usual.mass[b].inertia, factor);
+            heavy.state[b].angular_momentum =
+                mote_scale(usual.state[b].angular_momentum, factor);
+        }
+        const mote_impact a = respond(&usual, 0.5), b = respond(&heavy, 0.5);
+        assert_true(a.approaching && b.pulse == a.pulse * factor);
+        assert_true(b.energy == a.energy * factor);
+        for (int k = 0; k < 2; ++k)
+            assert_memory_equal(&usual.state[k].velocity, &heavy.state[k].velocity,
+                                sizeof usual.state[k].velocity);
+    }
+}
+
 TEST(respond_bad_input_refused)
 {
     uint64_t seed = 7;

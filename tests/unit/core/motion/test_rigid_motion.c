@@ -41,6 +41,25 @@ TEST(rigid_step_free_body_conserves_energy_and_length)
     assert_true(worst < 1e-11);
 }
 
+/* Momentum and inertia of bodies so small or so large that the square of the momentum is no
+   number: the same turns, to the last bit. */
+TEST(rigid_step_at_every_size_turns_the_same)
+{
+    static const int powers[] = {-1000, -600, -520, 500, 600, 1000};
+    const mote_mass usual = top_of(1, 2, 2.5);
+    for (size_t i = 0; i < ROWS_OF(powers); ++i) {
+        mote_mass mass = usual;
+        mote_rigid_state s = {.turn = {1, 0, 0, 0}, .angular_momentum = {1, 0.4, 0.25}};
+        mote_rigid_state scaled = s;
+        test_row("times 2^%d", powers[i]);
+        mass.inertia = mote_scale(usual.inertia, ldexp(1, powers[i]));
+        scaled.angular_momentum = mote_scale(s.angular_momentum, ldexp(1, powers[i]));
+        steps(&usual, nothing, 0.05, 200, &s);
+        steps(&mass, nothing, 0.05, 200, &scaled);
+        assert_memory_equal(&s.turn, &scaled.turn, sizeof s.turn);
+    }
+}
+
 /* About a main axis the rotation is uniform: Cayley's map turns by 2 atan(w step / 2) a
    step. */
 TEST(rigid_step_main_axis_turns_evenly)
