@@ -23,8 +23,8 @@ static void two_boxes(impact_scene *s, double a, double b)
 TEST(mote_impact_query_boxes_on_a_line_meet_when_they_must)
 {
     static const double tolerances[] = {0, 1e-9, 0.1, 1};
-    static const double sizes[] = {1, 1e-9, 1e30};
-    for (int k = 0; k < 3; ++k) {
+    static const double sizes[] = {1, 1e-9, 1e30, 1e-128, 1e128};
+    for (size_t k = 0; k < ROWS_OF(sizes); ++k) {
         const double size = sizes[k];
         impact_scene s;
         two_boxes(&s, 2 * size, size);
