@@ -68,7 +68,7 @@ mote_status mote_child_put(int output, const void *data, size_t size)
     return MOTE_OK;
 }
 
-/* The bytes this process has mapped: a limit above that leaves room to work. */
+/* The bytes this process has mapped: a limit above that leaves room to work. 0: not known. */
 static size_t mapped_bytes(void)
 {
     char line[64] = "";
@@ -110,8 +110,9 @@ static _Noreturn void be_child(mote_child_work work, void *context,
     (void)signal(SIGTERM, SIG_IGN);
     if (limits->confined)
         (void)mote_confine(); /* as far as this kernel supports it */
-    if (limits->memory_bytes > 0) {
-        const rlim_t bytes = mapped_bytes() + limits->memory_bytes;
+    const size_t mapped = limits->memory_bytes > 0 ? mapped_bytes() : 0;
+    if (mapped > 0) {
+        const rlim_t bytes = mapped + limits->memory_bytes;
         const struct rlimit limit = {bytes, bytes};
         (void)setrlimit(RLIMIT_AS, &limit);
     }

@@ -12,7 +12,8 @@
 
 typedef struct mote_child_limits {
     double seconds;      /* the child is ended after this long; 0: no limit */
-    size_t memory_bytes; /* of address space beyond what the parent has; 0: no limit */
+    size_t memory_bytes; /* of address space beyond what the parent has; 0, or where /proc does
+                            not say what that is: no limit */
     size_t output_bytes; /* of output at most */
     bool confined;       /* it changes no files: see harness/process/confine.h */
 } mote_child_limits;
