@@ -100,8 +100,10 @@ static void look_up(run *r, size_t index)
     json_int_t stride = json_integer_value(json_object_get(object, "stride"));
     bool whole = status && stride >= 1 && stride <= UINT32_MAX;
     if (whole) {
+        const double seconds = mote_number_at(object, "wall_seconds");
         cell->stride = (uint32_t)stride;
         r->prospects[index].done = true;
+        r->prospects[index].seconds = seconds > 0 ? seconds : 0; /* of further replicates */
         r->done += 1;
         r->failed += strcmp(status, mote_cell_status_names[MOTE_CELL_CRASHED]) == 0 ||
                              strcmp(status, mote_cell_status_names[MOTE_CELL_TIMEOUT]) == 0

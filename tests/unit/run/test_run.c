@@ -446,6 +446,18 @@ TEST(run_goes_on_with_the_stride_of_a_stored_cell_that_comes_later)
     json_decref(cell);
 }
 
+/* A further replicate is expected to take as long as the stored one, which is not tried. */
+TEST(run_that_goes_on_keeps_to_its_budget)
+{
+    static const char line[] = "tt --frames 1-6 --replicates 2 --method fcl-aabb";
+    assert_int_equal(run(line), 0);
+    assert_int_equal(
+        system("sed -i 's/\"wall_seconds\": [^,]*/\"wall_seconds\": 1e4/' cells/*.json"), 0);
+    mote_expect(0, "2 of them done", "run %s --until-ci 0.001%% --budget 100 --out .", line);
+    assert_non_null(strstr(said, "after 2 replicates the widest interval is"));
+    assert_int_equal(count_cells(".json"), 2);
+}
+
 /* Whatever else ends in .part is the user's. */
 TEST(run_sweeps_what_an_interrupted_write_left_and_nothing_else)
 {
