@@ -195,6 +195,17 @@ def frames_of_parts():
                 raise AssertionError(f"frames of parts: {error}") from error
             continue
         raise AssertionError(f"{matrices} frames of matrices beside {amounts} of amounts were taken")
+    for samples, says in (((np.repeat(whole[None], 5, 0), np.ones((4, 1))),
+                           "amounts in samples_a: it has 4 samples, and samples_a has 5"),
+                          ((np.repeat(whole[None], 5, 0), np.ones(1)), "samples_a: expected (k, "),
+                          ((None, None), "samples_a: expected (k, ")):
+        try:
+            mote.Pair(mesh, mesh, skin_with_a_target(mesh), samples_a=samples)
+        except ValueError as error:
+            if says not in str(error):
+                raise AssertionError(f"samples of parts: {error}, not {says}") from error
+            continue
+        raise AssertionError(f"samples of parts: taken, not {says}")
 
 
 def main():

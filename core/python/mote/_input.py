@@ -138,7 +138,13 @@ def fill(controls: Controls, pose: Optional[Framed], weights: Optional[Framed],
     controls.pose_rows = 3 if pose is None else pose.array.shape[-2]
 
 
-def count_frames(named: dict[str, Optional[int]]) -> int:
+def named_frames(name: str, parts: tuple[Optional[Framed], Optional[Framed]]) -> dict[str, Optional[int]]:
+    """The frames of weights and amounts, as BodyWeights.framed gives them, by their names in errors."""
+    return {part: given.frames for part, given in zip((name, f"amounts in {name}"), parts)
+            if given is not None}
+
+
+def count_frames(named: dict[str, Optional[int]], what: str = "frames") -> int:
     """The number of frames that arrays agree on; None is of an array without frames."""
     counts = {name: count for name, count in named.items() if count is not None}
     if not counts:
@@ -147,6 +153,6 @@ def count_frames(named: dict[str, Optional[int]]) -> int:
     for name, count in counts.items():
         if count != counts[first]:
             raise ValueError(
-                f"{name}: it has {count} frames, and {first} has {counts[first]}"
+                f"{name}: it has {count} {what}, and {first} has {counts[first]}"
             )
     return counts[first]

@@ -19,6 +19,7 @@ from ._input import (
     count_frames,
     fill,
     framed,
+    named_frames,
     pair_of,
     pose_framed,
 )
@@ -76,14 +77,14 @@ class Pair(TwoBodies):
         self._prepare(memory)
 
     def _set_samples(self, options: lib.BatchOptions, k: int, name: str, value: object) -> Any:
-        weights, amounts = self._bodies[k].framed(name, value)
-        counts = {f.frames for f in (weights, amounts) if f is not None}
+        parts = self._bodies[k].framed(name, value)
         if value is not None:
-            if len(counts) != 1 or None in counts:
+            counts = named_frames(name, parts)
+            if not counts or None in counts.values():
                 raise ValueError(f"{name}: expected (k, *weights_shape), k weights of one frame each")
-            options.sample_count[k] = counts.pop()
-        fill(options.samples[k], None, weights, amounts, 0)
-        return weights, amounts
+            options.sample_count[k] = count_frames(counts, "samples")
+        fill(options.samples[k], None, *parts, 0)
+        return parts
 
     def _prepare(self, memory: lib.Memory) -> None:
         """Memory for the numbers of one frame, and the library's structs that point to it."""
@@ -183,10 +184,7 @@ class Pair(TwoBodies):
                  for k, value in enumerate(pair_of("weights", weights))]
         frames = count_frames(
             {f"poses[{k}]": p.frames for k, p in enumerate(pose) if p is not None}
-            | {f"weights[{k}]": both[0].frames for k, both in enumerate(first)
-               if both[0] is not None}
-            | {f"amounts in weights[{k}]": both[1].frames for k, both in enumerate(first)
-               if both[1] is not None}
+            | named_frames("weights[0]", first[0]) | named_frames("weights[1]", first[1])
         )
         controls = (lib.Controls * 2)()
         self._enter()
