@@ -4,6 +4,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/uri.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -87,6 +88,14 @@ static char *decode(const char *text, size_t *size)
     return bytes;
 }
 
+static bool leaves_folder(const char *uri)
+{
+    char *decoded = mote_uri_decode(uri);
+    const bool leaves = decoded[0] == '/' || strstr(decoded, "..");
+    free(decoded);
+    return leaves;
+}
+
 static mote_status load_buffer(gltf *g, int64_t index)
 {
     static const char base64[] = ";base64,";
@@ -103,10 +112,10 @@ static mote_status load_buffer(gltf *g, int64_t index)
         g->size = g->bin_size;
     } else if (uri && strncmp(uri, "data:", 5) == 0 && strstr(uri, base64)) {
         g->bytes = decode(strstr(uri, base64) + strlen(base64), &g->size);
-    } else if (uri && (uri[0] == '/' || strstr(uri, ".."))) {
+    } else if (uri && leaves_folder(uri)) {
         status = wrong(g, "in a file of another folder");
     } else if (uri) {
-        char *file = mote_path_beside(g->path, uri);
+        char *file = mote_uri_path(g->path, uri);
         status = mote_file_read(file, BUFFER_BYTES, &g->bytes, &g->size);
         free(file);
     } else {

@@ -177,7 +177,10 @@ mote_status mote_assimp_open(const char *path, const struct aiScene **scene)
     aiAttachLogStream(&log);
     /* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp
        makes wrong triangles if a face is concave and not flat. */
-    const struct aiScene *opened = aiImportFile(path, 0);
+    char *name = mote_duplicate(path);
+    struct aiFileIO files = mote_assimp_files(name);
+    const struct aiScene *opened = aiImportFileEx(path, 0, &files);
+    free(name);
     aiDetachLogStream(&log);
     if (!opened)
         return fail_as_assimp_says(path);

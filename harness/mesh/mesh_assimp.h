@@ -1,12 +1,13 @@
-/* Shared by the readers that use assimp: mesh_assimp.c and character_assimp.c, the only files
-   that include it. Call them in a child process with limits: assimp may crash, hang or request
-   any amount of memory. */
+/* Shared by the readers that use assimp: mesh_assimp*.c and character_assimp.c, the only
+   files that include it. Call them in a child process with limits: assimp may crash, hang or
+   request any amount of memory. */
 #ifndef MOTE_HARNESS_MESH_ASSIMP_H
 #define MOTE_HARNESS_MESH_ASSIMP_H
 
 #include "harness/mesh/affine.h"
 #include "harness/mesh/mesh_soup.h"
 
+#include <assimp/cfileio.h>
 #include <assimp/scene.h>
 
 #define MOTE_SAID_MAX 200
@@ -26,6 +27,9 @@ mote_affine mote_assimp_affine(const struct aiMatrix4x4 *m);
 /* Reads a file as it is. MOTE_EINVAL: assimp refuses it, a face has an index out of range, or
    it contains no mesh. Release *scene with aiReleaseImport. */
 mote_status mote_assimp_open(const char *path, const struct aiScene **scene);
+
+/* How assimp opens a mesh file and those it names; path, the mesh's, has to last as long. */
+struct aiFileIO mote_assimp_files(char *path);
 
 /* Adds vertices, mapped by `place`, and faces. */
 mote_status mote_assimp_add_mesh(const char *path, const struct aiMesh *mesh,

@@ -233,7 +233,10 @@ TEST(gltf_keys_that_cannot_be_read_are_refused)
         {URI, "", "k.gltf: cubic keys in no buffer", MOTE_EINVAL},
         {URI, "\"uri\":\"/k.bin\"", folder, MOTE_EINVAL},
         {URI, "\"uri\":\"a/../../k.bin\"", folder, MOTE_EINVAL},
+        {URI, "\"uri\":\"a/%2E%2e/k.bin\"", folder, MOTE_EINVAL},
+        {URI, "\"uri\":\"%2fk.bin\"", folder, MOTE_EINVAL},
         {URI, "\"uri\":\"none.bin\"", "none.bin: ", MOTE_EIO},
+        {URI, "\"uri\":\"no%20k%00.bin\"", "no k%00.bin: ", MOTE_EIO},
         {URI, "\"uri\":\"data:,AAAA\"", "data:,AAAA: ", MOTE_EIO},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":4100}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":24}", beyond, MOTE_EINVAL},
@@ -283,8 +286,8 @@ TEST(gltf_keys_are_read_from_buffers_in_files)
     for (int k = 0; k < 18; ++k)
         wanted[k] = (k + 1) / 2.0;
     file_write("times.bin", times, sizeof times);
-    file_write("keys.bin", keys, sizeof keys);
-    char *first = whole_but(URI, "\"uri\":\"times.bin\"},{\"uri\":\"keys.bin\"");
+    file_write("my keys.bin", keys, sizeof keys);
+    char *first = whole_but(URI, "\"uri\":\"times.bin\"},{\"uri\":\"my%20keys.bin\"");
     char *at = strstr(first, VIEW);
     char *text =
         mote_format("%.*s{\"buffer\":1}%s", (int)(at - first), first, at + strlen(VIEW));

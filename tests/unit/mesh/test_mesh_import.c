@@ -1,4 +1,5 @@
 #include "core/base/random.h"
+#include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/mesh/mesh_soup.h"
 #include "tests/support/folder.h"
@@ -77,6 +78,43 @@ TEST(mote_mesh_import_formats_give_the_same_tetrahedron)
     check_tetrahedron("t.ply", ply_text, true);
     check_tetrahedron("t.stl", stl_text, true);
     check_tetrahedron("t.gltf", gltf_text, true);
+}
+
+/* The tetrahedron in a glTF file of a folder, with its buffer in the file that `uri` names. */
+static void check_buffer(const char *folder, const char *uri, const char *file)
+{
+    static const struct {
+        float xyz[12];
+        uint16_t corner[12];
+    } buffer = {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.1F}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+    const char *inside = strstr(gltf_text, "data:");
+    char *text = mote_format("%.*s%s\"}]}", (int)(inside - gltf_text), gltf_text, uri);
+    char *path = mote_format("%st.gltf", folder), *beside = mote_format("%s%s", folder, file);
+    test_row("%s, a buffer in %s", path, uri);
+    file_write(beside, &buffer, sizeof buffer);
+    check_tetrahedron(path, text, true);
+    assert_int_equal(unlink(beside), 0);
+    free(beside);
+    free(path);
+    free(text);
+}
+
+/* A buffer is named by a URI: percent signs stand for bytes, unless a file has them in its
+   name, as some exporters leave them. The folder's name is none. */
+TEST(gltf_buffers_are_found_by_uris)
+{
+    static const char *const folders[] = {"", "x%20y/", "./x y/"};
+    assert_int_equal(mkdir("x%20y", 0777), 0);
+    assert_int_equal(mkdir("x y", 0777), 0);
+    for (size_t i = 0; i < ROWS_OF(folders); ++i) {
+        check_buffer(folders[i], "a.bin", "a.bin");
+        check_buffer(folders[i], "a b.bin", "a b.bin");
+        check_buffer(folders[i], "a%20b.bin", "a b.bin");
+        check_buffer(folders[i], "a%20b.bin", "a%20b.bin");
+        check_buffer(folders[i], "%c3%A9.bin", "\xc3\xa9.bin");
+        check_buffer(folders[i], "50%.bin", "50%.bin");
+        check_buffer(folders[i], "50%25%2.bin", "50%%2.bin");
+    }
 }
 
 /* Everything that the format allows around the numbers. */
