@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # make fuzz: each fuzz target for some seconds, several at a time, from the committed corpus.
-#   fuzz.sh BUILD_FUZZ SECONDS JOBS OUT [SEED]
+#   [TARGET=NAME] fuzz.sh BUILD_FUZZ SECONDS JOBS OUT [SEED]
+# TARGET: this one alone.
 # SEED: of the inputs tried (1); 0: another one each time.
 # The targets are those that were built. OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings};
 # the findings are in OUT as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing was tried.
 # A slow machine tries fewer inputs but fails none: 120 s for one input are a hang anywhere.
 set -u
 build=$1 seconds=$2 jobs=$3 out=$4 seed=${5:-1}
-targets=$(find "$build/tests" -maxdepth 1 -type f -executable -name 'fuzz_*' -printf '%f\n' | sed 's/^fuzz_//' | sort)
+built=$(find "$build/tests" -maxdepth 1 -type f -executable -name 'fuzz_*' -printf '%f\n' | sed 's/^fuzz_//' | sort)
+targets=${TARGET:-$built}
+if [ -n "${TARGET:-}" ] && ! grep -qxF "$TARGET" <<<"$built"; then
+    echo "fuzz: there is no target $TARGET; give one of" $built >&2
+    exit 2
+fi
 mkdir -p "$out"
 rm -f "$out"/*.tsv "$out"/*.log "$out"/*.found
 

@@ -68,7 +68,7 @@ def checks_table(root):
 
 
 def records_of_fuzz(root):
-    return newest(root, "fuzz", "fuzz*.tsv")
+    return newest(root, "fuzz-*", "fuzz*.tsv")
 
 
 def fuzz_table(root):
