@@ -3,7 +3,7 @@ from tables.ablation import launches
 from tables.bodies import LETTERS, asked, bounds_of_body, gains, megabytes, step
 from tables.characters import characters, exact_to_parts
 from tables.counts import costliest_frames
-from tables.engines import is_tree, ode_to_fcl, times
+from tables.engines import best_engine, best_engines, best_to_fcl, is_tree, times
 from tables.impacts import continuous_to_sampled, energy_drifts, logged_impacts, long_questions, sums
 from tables.loops import loops, missed_shares, missed_steps, particles, pass_through, query_times, worst_reports
 from tables.number_text import digits, power, span
@@ -18,6 +18,9 @@ from tables.streamed import largest_share_of_tree, share_of_tree, stream_and_tre
 from tables.tune import count_of_settings, fastest_not_asked, oriented_to_boxes
 from tables.verdicts import convex, invented, oriented_bottom_up
 
+CONTACTS = ("ww-contact", "mv-contact")
+DEFORMING = ("ww", "mv", *CONTACTS)
+
 # Document, sentence with places for values, and the values.
 SENTENCES = [
     ("README.md", "(frames {} to {}, {:.0f} of them in contact, {} processes a method,", lambda root: (
@@ -27,18 +30,18 @@ SENTENCES = [
         reference_row(root, "particle-paper:n=5,start=fps")["ratio"]["value"] // 100,)),
     ("README.md", "On the paper's letters the particles need {:.1f} to {:.1f} of the time of the fastest exact query", lambda root: (
         1 / times_of_particles(root, "ww"), 1 / times_of_particles(root, "mv"))),
-    ("README.md", "(FCL or ODE) takes {} to {} times as long, by the medians of one run", lambda root: (
-        map(digits, span([times(root, scenario) for scenario in ("ww", "mv", "ww-contact", "mv-contact")])))),
+    ("README.md", "({}) takes {} to {} times as long, by the medians of one run", lambda root: (
+        best_engines(root, *DEFORMING), *map(digits, span([times(root, scenario) for scenario in DEFORMING])))),
     ("README.md", "On rigid bodies, asked for contacts, the best engine takes {} to {} times as long by the median and {} to {} by the mean", lambda root: (
         digits(value) for key in ("median", "mean")
         for value in span([times(root, scenario, key) for scenario in ("tt", "rigid-ww", "rigid-mv")]))),
-    ("README.md", "ODE takes {:.2f} to {:.2f} of its time for contacts", lambda root: (
-        span([ode_to_fcl(root, scenario) for scenario in ("ww-contact", "mv-contact")]))),
-    ("docs/peers.md", "ODE is the best of the others, in {:.2f} (`mv`) to {:.2f} (`ww`) of FCL's time. It takes {} times as long as "
-     "`certified` on `ww` and {} times on `mv` ({} and {} by the mean), and {} and {} times as long as `aabb-tree`", lambda root: (
-        *(ode_to_fcl(root, scenario) for scenario in ("mv-contact", "ww-contact")),
-        *(digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in ("ww-contact", "mv-contact")),
-        *(digits(times(root, scenario) / times(root, scenario, wanted=is_tree)) for scenario in ("ww-contact", "mv-contact")))),
+    ("README.md", "{} takes {:.2f} to {:.2f} of its time for contacts", lambda root: (
+        best_engines(root, *CONTACTS), *span([best_to_fcl(root, scenario) for scenario in CONTACTS]))),
+    ("docs/peers.md", "{} is the best of the others on `ww` and {} on `mv`, in {:.2f} and {:.2f} of FCL's time. It takes {} times as "
+     "long as `certified` on `ww` and {} times on `mv` ({} and {} by the mean), and {} and {} times as long as `aabb-tree`", lambda root: (
+        *(best_engine(root, scenario) for scenario in CONTACTS), *(best_to_fcl(root, scenario) for scenario in CONTACTS),
+        *(digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in CONTACTS),
+        *(digits(times(root, scenario) / times(root, scenario, wanted=is_tree)) for scenario in CONTACTS))),
     ("docs/peers.md", "`make tune PROFILE=full` measures {} settings of these engines on {} scenes", count_of_settings),
     ("docs/peers.md", "`make engines` has the fastest of each of its scenes but {}", fastest_not_asked),
     ("docs/peers.md", "FCL's oriented volumes take at least {:.0f} to {:.0f} times as long as its axis-aligned boxes", lambda root: (

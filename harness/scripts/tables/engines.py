@@ -7,7 +7,7 @@ from tables.records import csv_rows, is_right, wrong_verdicts
 
 ENGINES = "engines/summary.csv"
 PEERS = ENGINES + "#peers"
-SINGLE = ("ode", "bullet-gimpact", "embree-contact")
+SINGLE = {"ode": "ODE", "bullet-gimpact": "Bullet", "embree-contact": "Embree"}
 
 QUESTIONS = {"ww": "ww, distance", "mv": "mv, distance", "tt-distance": "tt, distance", "ww-contact": "ww, contact",
              "mv-contact": "mv, contact", "tt": "tt, contact", "rigid-ww": "path of ww, rigid, contact",
@@ -70,8 +70,21 @@ def is_tree(method):
     return method == "aabb-tree"
 
 
-def ode_to_fcl(root, scenario):
-    return times(root, scenario, wanted=lambda method: method == "ode") / times(root, scenario, wanted=is_fcl)
+def best_to_fcl(root, scenario):
+    """The time of the fastest engine of others over that of the fastest FCL."""
+    return times(root, scenario) / times(root, scenario, wanted=is_fcl)
+
+
+def best_engine(root, scenario):
+    """The name of the engine of others that is fastest by the median."""
+    method = fastest_right(root, scenario, "median", is_engine)["method"]
+    return SINGLE.get(method, "FCL" if is_fcl(method) else "Coal")
+
+
+def best_engines(root, *scenarios):
+    """The names of the engines of others that are fastest in some scenario: "A, B or C"."""
+    names = list(dict.fromkeys(best_engine(root, scenario) for scenario in scenarios))
+    return " or ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def engines_table(root):
