@@ -4,14 +4,15 @@
 # TARGET: this one alone.
 # SEED: of the inputs tried (1); 0: another one each time.
 # The targets are those that were built. OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings};
-# the findings are in OUT as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing was tried.
+# OUT/checks.tsv: the same for a record (make record). The findings are in OUT as crash-*, oom-* or timeout-*.
+# Exit status 1 where something was found or nothing was tried.
 # A slow machine tries fewer inputs but fails none: 120 s for one input are a hang anywhere.
 set -u
 build=$1 seconds=$2 jobs=$3 out=$4 seed=${5:-1}
 built=$(find "$build/tests" -maxdepth 1 -type f -executable -name 'fuzz_*' -printf '%f\n' | sed 's/^fuzz_//' | sort)
 targets=${TARGET:-$built}
 if [ -n "${TARGET:-}" ] && ! grep -qxF "$TARGET" <<<"$built"; then
-    echo "fuzz: there is no target $TARGET; give one of" $built >&2
+    echo "fuzz: there is no target $TARGET; give one of ${built//$'\n'/ }" >&2
     exit 2
 fi
 mkdir -p "$out"
@@ -40,6 +41,7 @@ wait
 for target in $targets; do
     cat "$out/$target.tsv"
 done >"$out/fuzz.tsv"
+awk -F'\t' '{ printf "fuzz: %s, inputs\t%d\t%d\n", $1, $3, $4 }' "$out/fuzz.tsv" >"$out/checks.tsv"
 awk -F'\t' '{ printf "fuzz_%s: %d CPU s, %d inputs, %d findings\n", $1, $2, $3, $4 }
     $3 < 1 || $4 > 0 { bad = 1 } END { exit bad || NR < 1 || NR < wanted }' \
     wanted="$(wc -w <<<"$targets")" "$out/fuzz.tsv"
