@@ -70,6 +70,8 @@ OUT ?= results/$(PROFILE)
 # Where a study of its own writes: results/STUDY, unless OUT is given.
 out = $(if $(filter file,$(origin OUT)),results/$(1),$(OUT))
 JOBS ?= $(shell nproc)
+# One test more than there are cores: a third of their time many only wait, for a child or a timeout.
+TESTS = $(shell expr $(JOBS) + 1)
 BUILD = build
 MOTE = $(BUILD)/mote
 
@@ -109,10 +111,10 @@ build-tests: deps-test
 	@$(call compile,$(BUILD))
 
 test: build-tests
-	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(JOBS)
+	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(TESTS)
 	@$(call configure,asan)
 	@$(call compile,build-asan)
-	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(JOBS)
+	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(TESTS)
 
 # A program of tests/ by itself, and the one that it calls.
 program-%: deps-test
