@@ -330,7 +330,8 @@ TEST(options_that_documents_mention_exist)
 /* Whether a file may declare a name: documents may not. */
 static bool is_source(const char *name)
 {
-    static const char *const ends[] = {".c", ".h", ".cpp", ".hpp", ".txt", ".cmake", ".json"};
+    static const char *const ends[] = {".c",   ".h",     ".cpp",  ".hpp",
+                                       ".txt", ".cmake", ".json", ".sh"};
     const char *dot = strrchr(name, '.');
     for (size_t i = 0; dot && i < sizeof ends / sizeof ends[0]; ++i)
         if (strcmp(dot, ends[i]) == 0)
