@@ -138,10 +138,14 @@ static void each_match(const char *document, const char *text, const char *patte
     regfree(&compiled);
 }
 
-/* What a record keeps is no document. */
+static bool is_record(const char *name)
+{
+    return starts(name, "results/records/");
+}
+
 static bool is_document(const char *name)
 {
-    return fnmatch("*.md", name, 0) == 0 && fnmatch("results/records/*", name, 0) != 0;
+    return fnmatch("*.md", name, 0) == 0 && !is_record(name);
 }
 
 /* The same for every document, or only for its code. */
@@ -327,9 +331,11 @@ TEST(options_that_documents_mention_exist)
     each_mention("(^)(--[a-z][a-z-]*)", true, check_option);
 }
 
-/* Whether a file may declare a name: documents may not. */
+/* Whether a file may declare a name: documents and records may not. */
 static bool is_source(const char *name)
 {
+    if (is_record(name))
+        return false;
     static const char *const ends[] = {".c",   ".h",     ".cpp",  ".hpp",
                                        ".txt", ".cmake", ".json", ".sh"};
     const char *dot = strrchr(name, '.');
