@@ -70,7 +70,7 @@ OUT ?= results/$(PROFILE)
 # Where a study of its own writes: results/STUDY, unless OUT is given.
 out = $(if $(filter file,$(origin OUT)),results/$(1),$(OUT))
 JOBS ?= $(shell nproc)
-# One test more than there are cores: a third of their time many only wait, for a child or a timeout.
+# One test more than there are cores, since many spend most of their time waiting.
 TESTS = $(shell expr $(JOBS) + 1)
 BUILD = build
 MOTE = $(BUILD)/mote

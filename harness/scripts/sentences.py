@@ -37,7 +37,7 @@ SENTENCES = [
         for value in span([times(root, scenario, key) for scenario in ("tt", "rigid-ww", "rigid-mv")]))),
     ("README.md", "{} takes {:.2f} to {:.2f} of its time for contacts", lambda root: (
         best_engines(root, *CONTACTS), *span([best_to_fcl(root, scenario) for scenario in CONTACTS]))),
-    ("docs/peers.md", "{} is the best of the others on `ww` and {} on `mv`, in {:.2f} and {:.2f} of FCL's time. It takes {} times as "
+    ("docs/peers.md", "{} is the best of the others on `ww` and {} on `mv`, in {:.2f} and {:.2f} of FCL's time. They take {} times as "
      "long as `certified` on `ww` and {} times on `mv` ({} and {} by the mean), and {} and {} times as long as `aabb-tree`", lambda root: (
         *(best_engine(root, scenario) for scenario in CONTACTS), *(best_to_fcl(root, scenario) for scenario in CONTACTS),
         *(digits(times(root, scenario, key)) for key in ("median", "mean") for scenario in CONTACTS),
