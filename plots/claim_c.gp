@@ -10,7 +10,7 @@ set logscale x 2
 set xrange [0.02:40]
 set yrange [0:1.02]
 set xlabel "particles over convex parts, n / parts"
-set ylabel "share of frames with error {/Symbol \243} 0.01 L"
+set ylabel "share of frames with error ≤ 0.01 L"
 set arrow 1 from 2,0 to 2,1.02 nohead dt 2 lc rgb ink
 set label 1 "the paper's 2" at 2.1,0.06 textcolor rgb ink
 

@@ -12,7 +12,7 @@ array colour[4] = [dark, blue, orange, grey]
 array shape[4] = [7, 5, 9, 13]
 
 set multiplot layout 1,2 margins 0.09,0.98,0.15,0.97 spacing 0.12
-set ylabel "median time of a query, {/Symbol m}s"
+set ylabel "median time of a query, µs"
 set format x "%g"
 set format y "10^{%L}"
 set yrange [0.5:1e6]

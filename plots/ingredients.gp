@@ -61,7 +61,7 @@ do for [k=0:2] {
     if (k == 2) {
         eval show_footer
         eval show_heading
-        set key at screen 0.62,34.0/high center center vertical maxrows 1 samplen 1 width 1 font ",11"
+        set key at screen 0.5,34.0/high center center vertical maxrows 1 samplen 1 width -1 font ",11"
         plot for [i=1:scenarios] data index i using 4:($1+shift[i]):5:6 with xerrorbars \
                  pt mark[i] ps 0.75 lw 1.3 lc rgb shade[i] title columnheader(1), \
              data index 0 using (1):1:ytic("") with dots lc rgb "white" notitle
