@@ -67,9 +67,10 @@ def count_of_settings(root):
 
 
 def fastest_not_asked(root):
-    """The scenes of `make engines` on which it does not have the fastest setting, in one text."""
+    """The scenes of `make engines` on which it does not have the fastest setting, as the end of a sentence."""
     first = [fastest(best(root, scenario).values(), "median") for scenario in settings(root)]
-    return [", ".join(f"`{row['scenario']}`" for row in first if whether_asked(root, row) == "no")]
+    missing = ", ".join(f"`{row['scenario']}`" for row in first if whether_asked(root, row) == "no")
+    return [missing and f" but {missing}"]
 
 
 def oriented_to_boxes(root, scenario):
