@@ -165,11 +165,39 @@ TEST(triangle_triangle_power_of_two_scale_same_bits)
         q = mote_scale(q, scale);
         assert_memory_equal(&p, &x, sizeof(p));
         assert_memory_equal(&q, &y, sizeof(q));
-        double point = mote_point_triangle(s[0], t, NULL);
-        assert_true(mote_point_triangle(a[0], b, NULL) == point * scale * scale);
-        double segment = mote_segment_segment(s, t, NULL, NULL);
-        assert_true(mote_segment_segment(a, b, NULL, NULL) == segment * scale * scale);
+        double point = mote_point_triangle(s[0], t, &q);
+        assert_true(mote_point_triangle(a[0], b, &y) == point * scale * scale);
+        q = mote_scale(q, scale);
+        assert_memory_equal(&q, &y, sizeof(q));
+        double segment = mote_segment_segment(s, t, &p, &q);
+        assert_true(mote_segment_segment(a, b, &x, &y) == segment * scale * scale);
+        p = mote_scale(p, scale);
+        q = mote_scale(q, scale);
+        assert_memory_equal(&p, &x, sizeof(p));
+        assert_memory_equal(&q, &y, sizeof(q));
     }
+}
+
+/* One is as good as a point beside the other, and either may be the large one. */
+TEST(tiny_and_huge_corners_are_scaled_by_the_largest)
+{
+    const double huge = 0x1p400, tiny = 0x1p-400;
+    const mote_vec3 dot[3] = {{tiny, 0, 0}, {0, tiny, 0}, {0, 0, tiny}};
+    for (int corner = 0; corner < 3; corner++) {
+        mote_vec3 far[3] = {{1, 2, 2}, {1, 2, 2}, {1, 2, 2}}, p, q, face[3];
+        far[corner] = mote_vec3_make(2, 4, 4);
+        scale_triangle(far, huge, face);
+        const double truth = 9 * huge * huge;
+        assert_true(mote_triangle_triangle(face, dot, &p, &q) == truth && p.z == 2 * huge);
+        assert_true(mote_triangle_triangle(dot, face, &p, &q) == truth && q.z == 2 * huge);
+        assert_true(mote_point_triangle(dot[0], face, &q) == truth && q.z == 2 * huge);
+        assert_true(mote_segment_segment(face, &dot[1], &p, &q) == truth && p.z == 2 * huge);
+        assert_true(mote_segment_segment(&dot[1], face, &p, &q) == truth && q.z == 2 * huge);
+        assert_true(mote_point_triangle(far[0], dot, &q) == mote_length_squared(far[0]));
+        assert_true(mote_length(q) <= tiny);
+    }
+    const mote_vec3 point = {huge, 2 * huge, 2 * huge};
+    assert_true(mote_point_triangle(point, dot, NULL) == 9 * huge * huge);
 }
 
 /* Squares of the distance leave the range of doubles; whether there is contact does not. */
