@@ -5,6 +5,7 @@
 #include "tests/support/triangle_pairs.h"
 #include "baselines/wide_triangle.h"
 
+#include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -155,10 +156,11 @@ static void check_scaled(mote_vec3 p, double scale, mote_vec3 scaled)
     assert_memory_equal(&p, &scaled, sizeof(p));
 }
 
+static const int exponents[] = {-480, -333, -200, -120, -40, -7, 1, 13, 40, 120, 200, 333, 480};
+
 TEST(triangle_triangle_power_of_two_scale_same_bits)
 {
     uint64_t seed = 3;
-    const int exponents[] = {-480, -333, -200, -120, -40, -7, 1, 13, 40, 120, 200, 333, 480};
     for (int i = 0; i < 20000; i++) {
         mote_vec3 s[3], t[3], a[3], b[3], p, q, x, y;
         pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
@@ -197,6 +199,30 @@ TEST(tiny_and_huge_corners_are_scaled_by_the_largest)
         assert_true(mote_point_triangle(face[0], dot, NULL) == mote_length_squared(face[0]));
         assert_true(mote_point_triangle(far[0], dot, &q) == mote_length_squared(far[0]));
         assert_true(mote_length(q) <= tiny);
+    }
+}
+
+TEST(points_at_the_origin_touch)
+{
+    const mote_vec3 origin[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    mote_vec3 p, q;
+    assert_true(mote_triangle_triangle(origin, origin, &p, &q) == 0);
+    assert_true(mote_segment_segment(origin, origin, &p, &q) == 0);
+    assert_true(mote_point_triangle(origin[0], origin, &q) == 0);
+    assert_memory_equal(&q, origin, sizeof(q));
+}
+
+/* The distance is a double, its square is none. */
+TEST(nearest_corner_of_the_largest_doubles_is_found)
+{
+    const double most = DBL_MAX, half = DBL_MAX / 2;
+    const mote_vec3 corners[3] = {{half, 0, 0}, {0, half, 0}, {0, 0, half}};
+    for (int turn = 0; turn < 3; turn++) {
+        mote_vec3 t[3], q;
+        for (int k = 0; k < 3; k++)
+            t[k] = corners[(k + turn) % 3];
+        assert_true(isinf(mote_point_triangle(mote_vec3_make(most, 0, 0), t, &q)));
+        assert_memory_equal(&q, &corners[0], sizeof(q));
     }
 }
 
@@ -281,15 +307,25 @@ TEST(triangle_triangle_offset_of_intersecting_pairs_is_a_contact)
     assert_in_range(contacts, 2000, 10000);
 }
 
+/* A bound from 0 to twice the squared distance: any such, itself, or a little more. */
+static double bound_about(double squared, int i, uint64_t *seed)
+{
+    const double any = 2 * pair_uniform(seed), more = 1 + ldexp(1, -8 - i % 44);
+    return squared * (i % 3 == 0 ? any : i % 3 == 1 ? 1 : more);
+}
+
 TEST(triangle_triangle_below_agrees_with_the_bound)
 {
     uint64_t seed = 5;
     int cut = 0;
-    for (int i = 0; i < 40000; i++) {
+    for (int i = 0; i < 80000; i++) {
         mote_vec3 s[3], t[3], p = {7, 7, 7}, q = {8, 8, 8}, x, y;
         pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        const double scale = ldexp(1, exponents[(size_t)i % COUNT(exponents)]);
+        scale_triangle(s, scale, s);
+        scale_triangle(t, scale, t);
         double exact = mote_triangle_triangle(s, t, &x, &y);
-        double bound = exact * 2 * pair_uniform(&seed);
+        double bound = bound_about(exact, i, &seed);
         double squared = mote_triangle_triangle_below(s, t, bound, &p, &q);
         if (exact < bound) {
             assert_true(squared == exact);

@@ -74,6 +74,40 @@ TEST(below_of_pairs_far_along_their_centres_is_the_bound)
     }
 }
 
+/* The squared width of the gap that the line of centres has between s and t; 0: none. */
+static double squared_gap_of_centres(const mote_vec3 s[3], const mote_vec3 t[3])
+{
+    const mote_vec3 along =
+        mote_sub(mote_add(t[0], mote_add(t[1], t[2])), mote_add(s[0], mote_add(s[1], s[2])));
+    double from = -HUGE_VAL, to = HUGE_VAL;
+    for (int k = 0; k < 3; ++k) {
+        from = fmax(from, mote_dot(along, s[k]));
+        to = fmin(to, mote_dot(along, t[k]));
+    }
+    return to > from ? (to - from) * (to - from) / mote_length_squared(along) : 0;
+}
+
+TEST(below_of_pairs_that_the_line_of_centres_separates_is_the_bound)
+{
+    uint64_t seed = 34;
+    int separate = 0;
+    for (int i = 0; i < 20000; ++i) {
+        mote_vec3 s[3], t[3];
+        pair_make(i % 2 ? PAIR_APART : PAIR_BESIDE, s, t, &seed);
+        for (int k = 0; k < 3; ++k) {
+            const double scale = ldexp(1, i % 81 - 40);
+            s[k] = mote_scale(s[k], scale);
+            t[k] = mote_scale(t[k], scale);
+        }
+        const double squared = squared_gap_of_centres(s, t);
+        if (squared > 1e-6 * mote_distance_squared(s[0], t[0])) {
+            check_cut(s, t, 0.99 * squared);
+            ++separate;
+        }
+    }
+    assert_true(separate > 10000);
+}
+
 /* Corners of two triangles face each other across a gap of a few roundings. No proof that is
    itself only rounding may return the bound instead of the distance. */
 TEST(below_of_pairs_apart_by_rounding_is_the_distance)
