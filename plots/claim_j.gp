@@ -27,6 +27,7 @@ set yrange [floor_error/2:2]
 unset key
 plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:(shown($2)) with linespoints \
          pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
+unset label
 set ylabel "share of contacts missed"
 set yrange [floor_share/2:2]
 set key at screen 0.52,0.11 center center vertical maxrows 3 samplen 3 width 1

@@ -2,7 +2,7 @@
 # Blocks of BASE.dat, one a scene: n, share, its interval, approaches. The first three, the paper's,
 # on the left, others on the right.
 wide = 760
-high = 480
+high = 500
 load plots."/style.gp"
 stats data using 1 nooutput
 blocks = STATS_blocks
@@ -31,12 +31,12 @@ eval show_footer
 do for [p=1:sides] {
     first = p == 1 ? 0 : left
     last = p == 1 ? left - 1 : blocks - 1
-    set lmargin at screen (p == 1 ? 0.1 : 0.58)
+    set lmargin at screen (p == 1 ? 0.11 : 0.58)
     set rmargin at screen (p == sides ? 0.98 : 0.5)
     set tmargin at screen 0.93
-    set bmargin at screen (sides == 2 ? 0.3 : 0.24)
+    set bmargin at screen (sides == 2 ? 0.34 : 0.24)
     set ylabel (p == 1 ? "approaches with a pass through" : "")
-    set key at screen (p == 1 ? (sides == 1 ? 0.54 : 0.3) : 0.78),(sides == 1 ? 0.13 : 0.17) center top horizontal \
+    set key at screen (p == 1 ? (sides == 1 ? 0.54 : 0.3) : 0.78),(sides == 1 ? 0.13 : 0.21) center top horizontal \
         maxcols (p == 1 ? 3 : 4)
     plot for [k=first:last] data index k \
              using (at($1, k - 0.5*(first + last))):(shown($2)):(shown($3)):(shown($4)) \
