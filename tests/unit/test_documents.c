@@ -36,8 +36,9 @@ static bool is_ours(const char *name)
     return true;
 }
 
-/* Runs leave any number of files in results/; these are the names of ours. */
-static bool is_of_a_run(const char *name)
+/* Runs leave any number of files in results/; these are the names of ours. The page brings
+   packages of npm. */
+static bool is_made(const char *name)
 {
     static const char *const ours[] = {"results/README.md", "results/history.csv",
                                        "results/reference/*", "results/schema/*",
@@ -45,7 +46,7 @@ static bool is_of_a_run(const char *name)
     bool kept = strncmp(name, "results/", 8) != 0;
     for (size_t i = 0; i < sizeof ours / sizeof ours[0]; ++i)
         kept = kept || fnmatch(ours[i], name, 0) == 0;
-    return !kept;
+    return !kept || strstr(name, "/node_modules/") != NULL;
 }
 
 static int keep_file(const char *path, const struct stat *information, int type,
@@ -53,7 +54,7 @@ static int keep_file(const char *path, const struct stat *information, int type,
 {
     (void)information, (void)walk;
     const char *name = path + strlen(MOTE_SOURCE_DIR) + 1;
-    if (type != FTW_F || name[0] == '.' || strncmp(name, "build", 5) == 0 || is_of_a_run(name))
+    if (type != FTW_F || name[0] == '.' || strncmp(name, "build", 5) == 0 || is_made(name))
         return 0;
     if (file_count == sizeof files / sizeof files[0] || !(files[file_count] = strdup(name)))
         return -1;
