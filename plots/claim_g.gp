@@ -11,6 +11,8 @@ set key inside top left vertical
 array colour[4] = [dark, blue, orange, grey]
 array shape[4] = [7, 5, 9, 13]
 
+eval panels
+eval show_footer
 set multiplot layout 1,2 margins 0.09,0.98,0.15,0.97 spacing 0.12
 set ylabel "median time of a query, µs"
 set format x "%g"
@@ -21,7 +23,7 @@ set logscale x 2
 plot for [i=0:half-1] data index i using 1:2:3:4 with yerrorlines pt shape[i+1] ps 0.8 lw 1.5 \
          lc rgb colour[i+1] title columnheader(1), \
      (x >= 16 ? 0.02*x**2 : NaN) with lines dt 2 lw 1.5 lc rgb ink title "n^2"
-unset label
+unset label 1000
 set xlabel "triangles, n = 5"
 set yrange [0.5:1e5]
 set logscale x 10

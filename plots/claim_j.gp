@@ -19,6 +19,8 @@ array colour[4] = [dark, blue, orange, grey]
 array shape[3] = [7, 9, 5]
 array dashes[3] = [1, 2, 3]
 
+eval panels
+eval show_footer
 set multiplot layout 1,2 margins 0.09,0.98,0.34,0.97 spacing 0.1
 set logscale y
 set format y "10^{%L}"
@@ -27,7 +29,7 @@ set yrange [floor_error/2:2]
 unset key
 plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:(shown($2)) with linespoints \
          pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
-unset label
+unset label 1000
 set ylabel "share of contacts missed"
 set yrange [floor_share/2:2]
 set key at screen 0.52,0.11 center center vertical maxrows 3 samplen 3 width 1

@@ -87,6 +87,8 @@ static double squared_gap_of_centres(const mote_vec3 s[3], const mote_vec3 t[3])
     return to > from ? (to - from) * (to - from) / mote_length_squared(along) : 0;
 }
 
+/* Only gaps of more than a thousandth of the distance of two corners, which rounding cannot
+   hide. */
 TEST(below_of_pairs_that_the_line_of_centres_separates_is_the_bound)
 {
     uint64_t seed = 34;
