@@ -60,6 +60,11 @@ echo "Installing$missing" >&2
 for wait in 10 30; do
     install && exit 0
     ! locked || exit 1
+    # An install that was killed leaves packages unpacked, and apt-get installs nothing until they are configured.
+    if grep -q 'dpkg was interrupted' "$errors"; then
+        echo "Configuring the packages of an install that was interrupted" >&2
+        $run env DEBIAN_FRONTEND=noninteractive dpkg --configure -a >&2
+    fi
     echo "Packages were not installed; trying again in $wait s." >&2
     sleep $wait
 done

@@ -18,6 +18,10 @@ program dpkg-query <<'END'
 for package; do :; done
 case $package in here*) echo 'ii ' ;; removed) echo 'rc ' ;; *) exit 1 ;; esac
 END
+program dpkg <<'END'
+echo "dpkg $*" >>calls
+echo 0 >locked
+END
 program id <<'END'
 cat user
 END
@@ -72,6 +76,13 @@ try 2 'E: Failed to fetch missing1.deb  Connection timed out' one.txt
 try 1000 'E: Unable to locate package missing1' one.txt
 [ $status != 0 ] && [ "$(grep -c 'update$' calls)" = 3 ] || fail "failing for good: status $status"
 grep -q 'Unable to locate' said || fail "the error is not shown"
+
+# The packages of an install that was interrupted are configured, which no other failure does; then apt-get works.
+! grep -q '^dpkg' calls || fail "dpkg is called though no install was interrupted"
+try 1000 "E: dpkg was interrupted, you must manually run 'dpkg --configure -a' to correct the problem. " one.txt
+[ $status = 0 ] || fail "an install was interrupted: status $status"
+[ "$(grep '^dpkg' calls)" = 'dpkg --configure -a' ] || fail "an install was interrupted, and dpkg is not called once"
+[ "$(grep -c 'install' calls)" = 1 ] || fail "the packages are not installed after an interrupted install"
 
 echo 1000 >user
 try 0 '' one.txt
