@@ -40,8 +40,9 @@ double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_v
 
 /* As mote_triangle_triangle where the result is below bound_squared (>= 0, may be infinite).
    Else it returns some value >= bound_squared, which is not the distance, and leaves p and q as
-   they are. A pair that the plane of either triangle or the line of centres proves to be far
-   takes less than a quarter of the time. */
+   they are; with a bound of 0, it may set them to a point of contact. A pair that the plane of
+   either triangle or the line of centres proves to be far takes less than a quarter of the
+   time. */
 double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
                                     double bound_squared, mote_vec3 *p, mote_vec3 *q);
 
