@@ -71,7 +71,7 @@ OUT ?= results/$(PROFILE)
 out = $(if $(filter file,$(origin OUT)),results/$(1),$(OUT))
 JOBS ?= $(shell nproc)
 # One test more than there are cores, since many spend most of their time waiting.
-TESTS = $(shell expr $(JOBS) + 1)
+TESTS_AT_ONCE = $(shell expr $(JOBS) + 1)
 BUILD = build
 MOTE = $(BUILD)/mote
 
@@ -111,10 +111,10 @@ build-tests: deps-test
 	@$(call compile,$(BUILD))
 
 test: build-tests
-	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(TESTS)
+	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE)
 	@$(call configure,asan)
 	@$(call compile,build-asan)
-	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(TESTS)
+	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE)
 
 # A program of tests/ by itself, and the one that it calls.
 program-%: deps-test
