@@ -16,7 +16,7 @@ from tables.reference import reference_row, times_of_particles
 from tables.reliability import failures, furthest_off, soaked
 from tables.streamed import largest_share_of_tree, share_of_tree, stream_and_tree
 from tables.tune import count_of_settings, fastest_not_asked, oriented_to_boxes
-from tables.verdicts import convex, invented, missed_by_rss_bottom_up, oriented_bottom_up
+from tables.verdicts import convex, invented, oriented_bottom_up
 
 CONTACTS = ("ww-contact", "mv-contact")
 DEFORMING = ("ww", "mv", *CONTACTS)
@@ -53,8 +53,6 @@ SENTENCES = [
      "on `tt`", lambda root: (digits(times(root, scenario)) for scenario in ("ww", "mv", "tt-distance"))),
     ("docs/peers.md", "in each of the {} frames without one, RSS in {}. RSS bottom-up also misses {} of the {} contacts that {} other "
      "deforming scenarios have in the frames in which it was asked, and {} of {} on `spider`", oriented_bottom_up),
-    ("datasets/defects.md", "Of the {} contacts that RSS misses bottom-up over all scenarios (`make verdicts PROFILE=paper`), {} are on "
-     "`spider`", missed_by_rss_bottom_up),
     ("docs/peers.md", "{:,} random pairs of triangles, most of them hard, with errors of at most {} of the extent, and {:,} whole frames of "
      "`mv`, `tt-distance` and `ww`, at most {} L", against_cgal),
     ("docs/peers.md", "Bullet invents contacts on the slivers ({} and {}), on `spider` ({}), on `twist` ({}) and on `touch` ({})",

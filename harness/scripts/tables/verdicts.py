@@ -6,7 +6,6 @@ from tables.records import file_of
 
 VERDICTS = "verdicts/verdicts.txt"
 LARGE_VERDICTS = "verdicts-large/verdicts.txt"
-RSS_BOTTOM_UP = "fcl-rss:update=refit-bottom-up"
 WRONG = re.compile(r"(\S+) on (\S+): missed (\d+) of (\d+) contacts, invented (\d+) in \d+ frames")
 
 
@@ -40,19 +39,13 @@ def invented(root, label, *scenarios):
 def oriented_bottom_up(root):
     """What oriented volumes that are refitted bottom-up invent on `spider`; what RSS invents there and misses elsewhere, of how
     many contacts in how many scenarios; what it misses there, of how many."""
-    labels = [f"fcl-{volume}:update=refit-bottom-up" for volume in ("kios", "obb", "obbrss")]
-    most, *same, of_rss = (invented(root, label, "spider")[0] for label in [*labels, RSS_BOTTOM_UP])
+    fcl = [f"fcl-{volume}:update=refit-bottom-up" for volume in ("kios", "obb", "obbrss", "rss")]
+    most, *same, of_rss = (invented(root, label, "spider")[0] for label in fcl)
     if same != [most, most]:
         raise ValueError("FCL's oriented volumes do not invent equally many contacts on spider; docs/peers.md says so")
-    elsewhere = dict(wrong(root, RSS_BOTTOM_UP))
+    elsewhere = dict(wrong(root, fcl[-1]))
     missed, contacts, _ = elsewhere.pop("spider")
     return (most, of_rss, *(sum(counts[k] for counts in elsewhere.values()) for k in (0, 1)), len(elsewhere), missed, contacts)
-
-
-def missed_by_rss_bottom_up(root):
-    """How many contacts RSS misses that is refitted bottom-up: in all, and on `spider`."""
-    missed = {scenario: count for scenario, (count, _, _) in wrong(root, RSS_BOTTOM_UP).items()}
-    return (sum(missed.values()), missed["spider"])
 
 
 def convex(root):
