@@ -12,6 +12,7 @@ typedef struct plants {
     const char *folder;    /* where scenarios are written */
     double error;          /* of particles, in L */
     double exponent;       /* of times, over any quantity */
+    double moving;         /* share of particles that move in each step but the last */
     bool contact_seen;     /* particles saw the contact */
     double ours_ns;        /* of particles and certified */
     double trees_ratio;    /* how many times as long trees take */

@@ -117,6 +117,14 @@ TEST(claim_on_complexity_follows_the_exponent)
     assert_int_equal(verdict_of("complexity"), MOTE_CLAIM_DOES_NOT_HOLD);
 }
 
+TEST(claim_on_rest_follows_the_share_that_moves)
+{
+    plant_good();
+    assert_int_equal(verdict_of("almost_at_rest"), MOTE_CLAIM_HOLDS);
+    planted.moving = 0.4; /* off 10 % by more than a factor of 2, but all come to rest */
+    assert_int_equal(verdict_of("almost_at_rest"), MOTE_CLAIM_LIMITS);
+}
+
 TEST(claims_of_a_run_that_lacks_a_row_say_which)
 {
     static const char *const names[] = {
