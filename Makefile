@@ -4,6 +4,7 @@
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, draw, show the best rows
 #   make sweep [OUT=DIR]                              time and memory over triangles, 1k to 1M
 #   make test                                         release tests, then ASan and UBSan
+#   make test-long                                    the tests that make test leaves out for their time
 #   make page                                         the viewer of reports, bundled by npm
 #   make test-page                                   the report's page, in headless Chromium
 
@@ -110,11 +111,15 @@ build-tests: deps-test
 	@$(call configure,release)
 	@$(call compile,$(BUILD))
 
-test: build-tests
-	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE)
+# tests/CMakeLists.txt says which tests are long. Continuous integration runs both targets.
+.PHONY: test-long
+test: LABEL = -LE long
+test-long: LABEL = -L long
+test test-long: build-tests
+	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE) $(LABEL)
 	@$(call configure,asan)
 	@$(call compile,build-asan)
-	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE)
+	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(TESTS_AT_ONCE) $(LABEL)
 
 # A program of tests/ by itself, and the one that it calls.
 program-%: deps-test
@@ -126,7 +131,7 @@ program-%: deps-test
 test-bare:
 	@cmake/deps.sh cmake/packages-bare.txt
 	@tests/scripts/bare.sh 'make bench PROFILE=quick' 'tests/scripts/all_methods.sh build/mote' \
-	    'make test'
+	    'make test' 'make test-long'
 
 bench: build page
 	@harness/scripts/bench.sh $(MOTE) $(PROFILE) $(OUT)
