@@ -57,7 +57,7 @@ def heading(root, source, document, old):
         when = max(row["measured"] for row in csv_rows(root, source))[:10]
         return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
     study = study_of(record)
-    changed = has_changed(root, study["study"])
+    changed = has_changed(root, record)
     changed = CHANGED in old if changed is None else changed
     return [f"Recorded on {study['ended'][:10]}, {link(study['commit'], record, document)}"
             f"{'; ' + CHANGED if changed else ''}.", ""]
@@ -68,7 +68,7 @@ def heading_of_gathered(root, records, document, old):
     links, changed = [], []
     for name, record in records.items():
         links.append(link(name, record, document))
-        now = has_changed(root, name)
+        now = has_changed(root, record)
         if f"`{name}`" in old if now is None else now:
             changed.append(f"`{name}`")
     if not links:

@@ -99,18 +99,29 @@ describe_parts() { # STUDY PARTS DONE
         "$@" >"$record/study.json"
 }
 
-# Some parts of a study do not take the place of a reference that has tried more, unless they failed.
+# Some parts of a study do not take the place of a reference that has tried more, nor of a whole record, which is said
+# to be of older sources then; unless they failed.
 record=$work/results/records/0123456789/answers
-mkdir -p "$record"
+whole=$work/results/records/9876543210/answers
+rm -rf "$work"/results/records/*/answers
+mkdir -p "$record" "$whole"
 row=$(grep -o '"one hash over all answers: builds[^"]*",[0-9]*' "$work/results/reference/reliability.csv" | tr -d '"')
 describe_parts answers 7 2
 printf '%s\t%s\t0\n' "${row%,*}" $((${row##*,} - 1)) >"$record/checks.tsv"
 check 0 "$work"
 grep -q "^| ${row%,*} | ${row##*,} | 0 |" "$work/docs/findings.md" || fail 'fewer cases take the place of more'
+! grep -q '^Recorded: .*\[answers\]' "$work/docs/findings.md" || fail 'the heading names a record that is not shown'
+printf '%s\t777\t0\n' "${row%,*}" >"$whole/checks.tsv"
+sed 's/"parts_done": 2/"parts_done": 7/; s/-03-02T/-03-01T/' "$record/study.json" >"$whole/study.json"
+check 0 "$work"
+grep -q "^| ${row%,*} | 777 | 0 | 2027-03-01 |" "$work/docs/findings.md" || fail 'the whole record is not shown'
+# shellcheck disable=SC2016
+grep -q '^Recorded: .*\[answers\](../results/records/9876543210/answers).* The sources of .*`answers`.* have changed' \
+    "$work/docs/findings.md" || fail "the whole record is not said to be old: $(grep Recorded: "$work/docs/findings.md")"
 printf '%s\t1\t1\n' "${row%,*}" >"$record/checks.tsv"
 check 0 "$work"
 grep -q "^| ${row%,*} | 1 | 1 | 2027-03-02 |" "$work/docs/findings.md" || fail 'a failure is not shown'
-rm -r "$record"
+rm -r "$record" "$whole"
 
 # The parts of a record are summed, and the table says how many of how many there are.
 record=$work/results/records/0123456789/mutation-skin

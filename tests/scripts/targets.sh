@@ -1,5 +1,6 @@
 #!/bin/sh
-# Which tests targets of make run: coverage all, or those of TESTS; test and test-long each test in one of both.
+# Which tests targets of make run: coverage all, or those of TESTS; test and test-long each test in one of both,
+# and test-bare both.
 # Usage: targets.sh SOURCE
 set -eu
 unset TESTS OUT MAKEFLAGS MFLAGS MAKELEVEL
@@ -15,5 +16,6 @@ counted() { # [TESTS]: the last argument of coverage.sh, with its quotes
 
 [ "$(options test)" = "$(printf -- '-LE long\n-LE long')" ] || fail "test: $(options test)"
 [ "$(options test-long)" = "$(printf -- '-L long\n-L long')" ] || fail "test-long: $(options test-long)"
+make -n test-bare | grep -q "'make test' 'make test-long'" || fail "test-bare leaves out some tests"
 [ "$(counted)" = "''" ] || fail "coverage: $(counted)"
 [ "$(counted 'mesh|lazy')" = "'mesh|lazy'" ] || fail "coverage with TESTS: $(counted 'mesh|lazy')"

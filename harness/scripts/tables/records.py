@@ -12,13 +12,14 @@ def study_of(record):
     return json.loads((record / "study.json").read_text())
 
 
-def newest(root, studies, files):
-    """By name, the newest record of each study that has such files; both are patterns."""
+def newest(root, studies, files, counts=lambda record: True):
+    """By name, the newest record of each study that has such files and counts; studies and files are patterns."""
     found = {}
     for file in sorted(root.glob(f"results/records/*/{studies}/{files}")):
         record = file.parent
-        other = found.get(record.name, record)
-        found[record.name] = max(record, other, key=lambda folder: study_of(folder)["ended"])
+        if counts(record):
+            other = found.get(record.name, record)
+            found[record.name] = max(record, other, key=lambda folder: study_of(folder)["ended"])
     return dict(sorted(found.items()))
 
 
@@ -44,9 +45,14 @@ def changed_studies(root):
             if " changed since " in line or " other sources than " in line}
 
 
-def has_changed(root, study):
+def has_changed(root, record):
+    """Whether the sources of a record have changed since; None if nothing tells. A study is begun anew only where they
+    have, so that what a newer record does not replace yet is of other sources."""
+    if any(study_of(other)["ended"] > study_of(record)["ended"]
+           for other in [file.parent for file in root.glob(f"results/records/*/{record.name}/study.json")]):
+        return True
     changed = changed_studies(root)
-    return changed if changed is None else study in changed
+    return changed if changed is None else record.name in changed
 
 
 @functools.cache

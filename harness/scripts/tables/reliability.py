@@ -34,22 +34,29 @@ def stored(row):
     return f"{row['date']}, {row['commit']}"
 
 
+@functools.cache
+def checks_of_reference(root):
+    return {row["check"]: (int(row["tried"]), int(row["failed"]), row["date"]) for row in csv_rows(root, RELIABILITY)}
+
+
+def counts_as_checks(root, record):
+    """A record of some parts counts once it has tried as many as the reference, or where something failed."""
+    done, parts = parts_of(record)
+    rows, before = list(rows_of(record, "checks.tsv")), checks_of_reference(root)
+    return (done == parts or any(int(failed) > 0 for _, _, failed in rows)
+            or all(int(tried) >= before.get(check, (0,))[0] for check, tried, _ in rows))
+
+
 def records_of_checks(root):
-    return newest(root, "*", "checks.tsv")
+    return newest(root, "*", "checks.tsv", functools.partial(counts_as_checks, root))
 
 
 @functools.cache
 def checks(root):
-    """By name, how many cases were tried, how many failed, and when. A record of some parts counts once it has tried as
-    many as the reference, or where something failed."""
-    before = {row["check"]: (int(row["tried"]), int(row["failed"]), row["date"]) for row in csv_rows(root, RELIABILITY)}
-    found = {}
-    for record in records_of_checks(root).values():
-        done, parts = parts_of(record)
-        for check, tried, failed in rows_of(record, "checks.tsv"):
-            if done == parts or int(failed) > 0 or int(tried) >= before.get(check, (0,))[0]:
-                found[check] = (int(tried), int(failed), study_of(record)["ended"][:10])
-    for check, row in before.items():
+    """By name, how many cases were tried, how many failed, and when."""
+    found = {check: (int(tried), int(failed), study_of(record)["ended"][:10])
+             for record in records_of_checks(root).values() for check, tried, failed in rows_of(record, "checks.tsv")}
+    for check, row in checks_of_reference(root).items():
         found.setdefault(check, row)
     return found
 
