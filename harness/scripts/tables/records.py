@@ -48,8 +48,7 @@ def changed_studies(root):
 def has_changed(root, record):
     """Whether the sources of a record have changed since; None if nothing tells. A study is begun anew only where they
     have, so that what a newer record does not replace yet is of other sources."""
-    if any(study_of(other)["ended"] > study_of(record)["ended"]
-           for other in [file.parent for file in root.glob(f"results/records/*/{record.name}/study.json")]):
+    if newest(root, record.name, "study.json")[record.name] != record:
         return True
     changed = changed_studies(root)
     return changed if changed is None else record.name in changed
