@@ -9,8 +9,8 @@
 #   PROGRAM=FILE    the program, built from this tree
 #
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
-# keeps of them, or by a comparison with its commit; texts, *.md, and comments of C files are left out), and all
-# of its parts are in it and passed. It stays fresh where C files alone have changed and PROGRAM is still the
+# keeps of them, or by a comparison with its commit; texts, *.md, and comments of C files and shell scripts are
+# left out), and all of its parts are in it and passed. It stays fresh where C files alone have changed and PROGRAM is still the
 # recorded one to the last byte; studies that run programs of tests/ go by the files alone. The record is written
 # after each part, and parts that passed are not run again after an interruption, unless the sources have changed
 # since: those in WORK/STUDY, or, where WORK has fewer (on another machine, say), those of the newest record.
@@ -33,8 +33,7 @@ commit=$(git rev-parse --short=10 HEAD)
 program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
 no_texts=':!*.md'
 declare -A lists # of sources, by @NAME
-c_file='\.(c|h|cpp|hpp)$'
-compiled="^(core|baselines|datasets|harness)/.*$c_file"
+compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
@@ -67,18 +66,26 @@ has_this_program() { # STUDY.JSON CHANGED
     [ -n "$program" ] && [ "$(value "$1" program)" = "$program" ] && [[ " $sources" != *" tests"* ]] &&
         ! grep -qvE "$compiled" <<<"$2"
 }
-# A C file without its comments.
-code() {
-    gcc -fpreprocessed -dD -E -P -x c++ -
+# What is read from standard input without its comments; fails for a FILE that is neither C nor a shell script.
+code() { # FILE
+    local first
+    case $1 in
+    *.c | *.h | *.cpp | *.hpp) gcc -fpreprocessed -dD -E -P -x c++ - ;;
+    *.sh) # its first line names the shell; the rest as a function, as the shell prints it
+        read -r first
+        echo "$first"
+        { echo 'script() {' && cat && printf '\n}\ndeclare -f script\n'; } | bash
+        ;;
+    *) return 1 ;;
+    esac
 }
 # Many records were made while a file was the same: what was compared once is known by its hashes.
 compared=$(mktemp -d)
 trap 'rm -rf "$compared"' EXIT
 has_same_code() { # FILE OLD_HASH HASH, all zeros where the file is not as in the index
     local old new known=$compared/$2-$3
-    [[ $1 =~ $c_file ]] || return 1
     [[ $3 =~ ^0+$ ]] || ! [ -e "$known" ] || return "$(<"$known")"
-    old=$(git cat-file blob "$2" | code) && new=$(code <"$1") && [ "$old" = "$new" ]
+    old=$(git cat-file blob "$2" | code "$1") && new=$(code "$1" <"$1") && [ "$old" = "$new" ]
     local status=$?
     echo $status >"$known"
     return $status

@@ -2,7 +2,7 @@
 # Builds tests/unit/core/test_portability.c with each compiler, optimisation and instruction set and runs
 # it: every build must give the hashes that the test holds. Usage: portability.sh SOURCE_DIR [few]
 # Skips and names instruction sets that this machine cannot run, and compilers that it lacks. few: four
-# unlike builds, as make test does; make determinism tries them all.
+# unlike builds, as make test-long does; make determinism tries them all.
 set -eu
 . "$(dirname "$0")/work.sh"
 cd "$1"

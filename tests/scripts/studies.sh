@@ -144,6 +144,24 @@ calls ""
 head=$(git rev-parse --short=10 HEAD)
 grep -q "\"same_commit\": \"$head\"" records/*/sums/study.json || fail "the record does not say for which commit it holds"
 
+step="other comments in a shell script make nothing stale; code, its first line and what it prints do"
+script() { # FIRST LAST
+    printf '%s\n# Says it.\ncat <<TEXT # so\n# %s\nTEXT\n' "$1" "$2" >core/say.sh
+}
+script '#!/bin/sh' one
+git add core/say.sh && git commit -qm "a script"
+ONLY=sums run 0
+calls "sums 1,sums 2,sums 3,"
+sed -i -e "2s/.*/# Says what it has to say./" -e "s/ # so//" core/say.sh
+ONLY=sums run 0 list
+for change in "'#!/bin/bash' one" "'#!/bin/sh' two"; do
+    eval "script $change"
+    ONLY=sums run 1 list
+    says "core/say.sh changed since"
+done
+git checkout -q core/say.sh
+calls ""
+
 step="a part that would end too late is not begun"
 echo 2 >plots/c.gp
 git commit -qam third
