@@ -9,11 +9,12 @@
 #   PROGRAM=FILE    the program, built from this tree
 #
 # A study is fresh while the files that it exercises are those of its record (by the hashes that git
-# keeps of them, or by a comparison with its commit; texts, *.md, and comments of C files and shell scripts are
-# left out), and all of its parts are in it and passed. It stays fresh where C files alone have changed and PROGRAM is still the
-# recorded one to the last byte; studies that run programs of tests/ go by the files alone. The record is written
-# after each part, and parts that passed are not run again after an interruption, unless the sources have changed
-# since: those in WORK/STUDY, or, where WORK has fewer (on another machine, say), those of the newest record.
+# keeps of them, or by a comparison with its commit; texts, *.md, and comments of C files and shell scripts
+# are left out), and all of its parts are in it and passed. It stays fresh where C files alone have changed
+# and PROGRAM is still the recorded one to the last byte; studies that run programs of tests/ go by the files
+# alone. The record is written after each part, and parts that passed are not run again after an
+# interruption, unless the sources have changed since: those in WORK/STUDY, or, where WORK has fewer (on
+# another machine, say), those of the newest record.
 set -euo pipefail
 table=$1 records=$2 work=$3 list=${4:-}
 only=${ONLY:-} hours=${HOURS:-} busy=${BUSY:-} jobs=${JOBS:-1} file_of_program=${PROGRAM:-} began=$(date +%s)
