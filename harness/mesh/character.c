@@ -3,6 +3,7 @@
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/mesh/character_parts.h"
+#include "harness/gltf/gltf_file.h"
 #include "harness/mesh/import_child.h"
 
 #include <assert.h>
@@ -10,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-
-#define FILE_BYTES ((size_t)4 << 30)
 
 void mote_character_free_arrays(mote_character *character)
 {
@@ -55,13 +54,10 @@ void mote_character_destroy(mote_character *character)
 
 static mote_status set_keys(const char *path, mote_rig *rig)
 {
-    const char *ending = strrchr(path, '.');
     char *data = NULL;
     size_t size = 0;
-    if (!ending || (strcasecmp(ending, ".gltf") != 0 && strcasecmp(ending, ".glb") != 0))
-        return MOTE_OK;
-    mote_status status = mote_file_read(path, FILE_BYTES, &data, &size);
-    if (status == MOTE_OK)
+    mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &data, &size);
+    if (status == MOTE_OK && mote_gltf_is(path, data, size))
         status = mote_character_set_gltf_keys(path, data, size, rig);
     free(data);
     return status;

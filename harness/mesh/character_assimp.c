@@ -413,7 +413,7 @@ static bool has_bones(const struct aiScene *scene)
 mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft)
 {
     reader r = {.path = path, .draft = draft};
-    mote_status status = mote_assimp_open(path, &r.scene);
+    mote_status status = mote_assimp_open(path, true, &r.scene);
     if (status != MOTE_OK)
         return status;
     if (has_bones(r.scene) || r.scene->mNumAnimations > 0)

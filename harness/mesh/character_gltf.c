@@ -1,24 +1,18 @@
 /* The parts of a glTF file's animations that assimp leaves out: step interpolation, and the
    tangents of cubic keys (glTF 2.0, section 3.11). */
 #include "harness/mesh/character_parts.h"
+#include "harness/gltf/gltf_file.h"
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/mesh/uri.h"
 
-#include <jansson.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define BUFFER_BYTES ((size_t)4 << 30)
-#define FLOATS 5126
-
 typedef struct gltf {
     const char *path;
-    json_t *root;
-    const char *bin; /* of a binary file; otherwise NULL */
-    size_t bin_size;
+    mote_gltf file;
     int64_t buffer; /* the loaded one; -1: none */
     char *bytes;
     size_t size;
@@ -39,27 +33,10 @@ static mote_status wrong(const gltf *g, const char *what)
                      g->path, what);
 }
 
-static const json_t *entry(const gltf *g, const char *list, int64_t index)
-{
-    return index < 0 ? NULL : json_array_get(json_object_get(g->root, list), (size_t)index);
-}
-
-/* The value of a member that is a whole number of at least 0, 16.0 too, otherwise -1. */
-static int64_t whole(const json_t *object, const char *key)
-{
-    const json_t *value = json_object_get(object, key);
-    const double real = json_real_value(value);
-    if (json_is_integer(value))
-        return json_integer_value(value) < 0 ? -1 : json_integer_value(value);
-    return json_is_real(value) && real >= 0 && real <= 0x1p53 && real == floor(real)
-               ? (int64_t)real
-               : -1;
-}
-
-/* The same of a member that may be left out: then 0. */
+/* mote_gltf_whole of a member that may be left out: then 0. */
 static int64_t whole_or_none(const json_t *object, const char *key)
 {
-    return json_object_get(object, key) ? whole(object, key) : 0;
+    return json_object_get(object, key) ? mote_gltf_whole(object, key) : 0;
 }
 
 static int digit(char c)
@@ -99,7 +76,7 @@ static bool leaves_folder(const char *uri)
 static mote_status load_buffer(gltf *g, int64_t index)
 {
     static const char base64[] = ";base64,";
-    const json_t *buffer = entry(g, "buffers", index);
+    const json_t *buffer = mote_gltf_entry(&g->file, "buffers", index);
     const char *uri = json_string_value(json_object_get(buffer, "uri"));
     mote_status status = MOTE_OK;
     if (g->buffer == index)
@@ -107,16 +84,16 @@ static mote_status load_buffer(gltf *g, int64_t index)
     free(g->bytes);
     g->bytes = NULL;
     g->buffer = -1;
-    if (!uri && g->bin && index == 0) {
-        g->bytes = mote_copy(g->bin, g->bin_size);
-        g->size = g->bin_size;
+    if (!uri && g->file.bin && index == 0) {
+        g->bytes = mote_copy(g->file.bin, g->file.bin_size);
+        g->size = g->file.bin_size;
     } else if (uri && strncmp(uri, "data:", 5) == 0 && strstr(uri, base64)) {
         g->bytes = decode(strstr(uri, base64) + strlen(base64), &g->size);
     } else if (uri && leaves_folder(uri)) {
         status = wrong(g, "in a file of another folder");
     } else if (uri) {
         char *file = mote_uri_path(g->path, uri);
-        status = mote_file_read(file, BUFFER_BYTES, &g->bytes, &g->size);
+        status = mote_file_read(file, MOTE_GLTF_BYTES, &g->bytes, &g->size);
         free(file);
     } else {
         status = wrong(g, "in no buffer");
@@ -128,21 +105,22 @@ static mote_status load_buffer(gltf *g, int64_t index)
 /* Reads an accessor with `width` floats per element. */
 static mote_status read_accessor(gltf *g, int64_t index, size_t width, numbers *out)
 {
-    const json_t *accessor = entry(g, "accessors", index);
-    const json_t *view = entry(g, "bufferViews", whole(accessor, "bufferView"));
-    const int64_t count = whole(accessor, "count");
+    const json_t *accessor = mote_gltf_entry(&g->file, "accessors", index);
+    const json_t *view =
+        mote_gltf_entry(&g->file, "bufferViews", mote_gltf_whole(accessor, "bufferView"));
+    const int64_t count = mote_gltf_whole(accessor, "count");
     const int64_t stride = whole_or_none(view, "byteStride");
     const int64_t offset[2] = {whole_or_none(accessor, "byteOffset"),
                                whole_or_none(view, "byteOffset")};
     const uint64_t size = width * sizeof(float);
     const uint64_t step = stride > 0 ? (uint64_t)stride : size;
     const uint64_t begin = (uint64_t)offset[0] + (uint64_t)offset[1];
-    if (!view || count < 1 || whole(accessor, "componentType") != FLOATS ||
+    if (!view || count < 1 || mote_gltf_whole(accessor, "componentType") != MOTE_GLTF_FLOATS ||
         json_object_get(accessor, "sparse"))
         return wrong(g, "that are no floats");
     if (stride < 0 || offset[0] < 0 || offset[1] < 0)
         return wrong(g, "whose byteOffset or byteStride is not a whole number");
-    const mote_status status = load_buffer(g, whole(view, "buffer"));
+    const mote_status status = load_buffer(g, mote_gltf_whole(view, "buffer"));
     if (status != MOTE_OK)
         return status;
     if (step > 4096 || begin > g->size || size > g->size - begin ||
@@ -188,7 +166,8 @@ typedef struct tracks {
 
 static uint32_t find_node(const gltf *g, int64_t index)
 {
-    const char *name = json_string_value(json_object_get(entry(g, "nodes", index), "name"));
+    const char *name =
+        json_string_value(json_object_get(mote_gltf_entry(&g->file, "nodes", index), "name"));
     char *own =
         name && *name ? mote_duplicate(name) : mote_format("nodes[%lld]", (long long)index);
     uint32_t found = MOTE_RIG_NONE;
@@ -229,9 +208,9 @@ static mote_status set_cubics(gltf *g, const json_t *sampler, const tracks *foun
 {
     numbers times = {0}, keys = {0};
     const bool is_morph = strcmp(path, "weights") == 0;
-    mote_status status = read_accessor(g, whole(sampler, "input"), 1, &times);
+    mote_status status = read_accessor(g, mote_gltf_whole(sampler, "input"), 1, &times);
     if (status == MOTE_OK)
-        status = read_accessor(g, whole(sampler, "output"), found->width, &keys);
+        status = read_accessor(g, mote_gltf_whole(sampler, "output"), found->width, &keys);
     const size_t stride = times.count > 0 ? keys.count / (3 * times.count) : 0;
     if (status == MOTE_OK &&
         (stride == 0 || stride * 3 * times.count != keys.count || (!is_morph && stride != 1)))
@@ -249,14 +228,14 @@ static mote_status set_channel(gltf *g, const json_t *animation, const json_t *c
 {
     const json_t *target = json_object_get(channel, "target");
     const char *path = json_string_value(json_object_get(target, "path"));
-    const int64_t index = whole(channel, "sampler");
+    const int64_t index = mote_gltf_whole(channel, "sampler");
     const json_t *sampler =
         index < 0 ? NULL
                   : json_array_get(json_object_get(animation, "samplers"), (size_t)index);
     const char *mode = json_string_value(json_object_get(sampler, "interpolation"));
     if (!path || !mode || strcmp(mode, "LINEAR") == 0)
         return MOTE_OK;
-    const uint32_t node = find_node(g, whole(target, "node"));
+    const uint32_t node = find_node(g, mote_gltf_whole(target, "node"));
     if (node == MOTE_RIG_NONE)
         return MOTE_OK; /* moves nothing that assimp read */
     tracks found;
@@ -272,7 +251,7 @@ static mote_status set_channel(gltf *g, const json_t *animation, const json_t *c
 
 static mote_status set_clips(gltf *g)
 {
-    const json_t *animations = json_object_get(g->root, "animations");
+    const json_t *animations = json_object_get(g->file.root, "animations");
     const size_t count = json_array_size(animations);
     mote_status status = MOTE_OK;
     if (count != g->rig->clips_count)
@@ -289,47 +268,15 @@ static mote_status set_clips(gltf *g)
     return status;
 }
 
-static uint32_t word(const char *bytes)
-{
-    uint32_t value = 0;
-    for (int k = 3; k >= 0; --k)
-        value = value << 8 | (unsigned char)bytes[k];
-    return value;
-}
-
-/* The JSON text of a file, and the buffer of a binary one. */
-static bool find_text(const char *data, size_t size, gltf *g, const char **text, size_t *length)
-{
-    *text = data;
-    *length = size;
-    if (size < 4 || memcmp(data, "glTF", 4) != 0)
-        return true;
-    if (size < 20 || word(data + 12) > size - 20)
-        return false;
-    *text = data + 20;
-    *length = word(data + 12);
-    const size_t at = 20 + *length;
-    if (size - at >= 8 && word(data + at) <= size - at - 8) {
-        g->bin = data + at + 8;
-        g->bin_size = word(data + at);
-    }
-    return true;
-}
-
 mote_status mote_character_set_gltf_keys(const char *path, const char *data, size_t size,
                                          mote_rig *rig)
 {
     gltf g = {.path = path, .buffer = -1, .rig = rig};
-    const char *text;
-    size_t length;
-    json_error_t error;
-    if (!find_text(data, size, &g, &text, &length))
-        return mote_fail(MOTE_EINVAL, "%s: ends early; give the whole file", path);
-    g.root = json_loadb(text, length, 0, &error);
-    if (!g.root)
-        return mote_fail(MOTE_EINVAL, "%s:%d: %s; write JSON", path, error.line, error.text);
-    const mote_status status = set_clips(&g);
-    json_decref(g.root);
+    mote_status status = mote_gltf_open(path, data, size, &g.file);
+    if (status != MOTE_OK)
+        return status;
+    status = set_clips(&g);
+    mote_gltf_close(&g.file);
     free(g.bytes);
     return status;
 }

@@ -3,14 +3,13 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/gltf/gltf_file.h"
 
 #include <assimp/cimport.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define GLB_BYTES ((size_t)4 << 30)
 
 const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX])
 {
@@ -128,35 +127,9 @@ static void note_dropped(const char *message, char *dropped)
         *dropped = 1;
 }
 
-/* MOTE_EINVAL for a binary glTF file that is shorter than its header says: assimp then does not
-   know the format. */
-static mote_status check_length(const char *path)
-{
-    char *data = NULL;
-    size_t size = 0;
-    mote_status status = MOTE_OK;
-    if (mote_file_read(path, GLB_BYTES, &data, &size) != MOTE_OK)
-        return MOTE_OK; /* assimp has said why it cannot be read */
-    const unsigned char *head = (const unsigned char *)data;
-    if (size >= 4 && memcmp(head, "glTF", 4) == 0) {
-        const uint32_t whole = size < 12
-                                   ? 12
-                                   : (uint32_t)head[8] | (uint32_t)head[9] << 8 |
-                                         (uint32_t)head[10] << 16 | (uint32_t)head[11] << 24;
-        if (size < whole)
-            status = mote_fail(MOTE_EINVAL,
-                               "%s: ends after %zu of %u bytes; give the whole glTF file", path,
-                               size, whole);
-    }
-    free(data);
-    return status;
-}
-
 static mote_status fail_as_assimp_says(const char *path)
 {
     char said[MOTE_SAID_MAX];
-    if (check_length(path) != MOTE_OK)
-        return MOTE_EINVAL;
     (void)mote_assimp_line(aiGetErrorString(), said);
     if (strncmp(said, "No suitable reader", strlen("No suitable reader")) == 0)
         return mote_fail(
@@ -170,9 +143,29 @@ static mote_status fail_as_assimp_says(const char *path)
         said);
 }
 
-mote_status mote_assimp_open(const char *path, const struct aiScene **scene)
+/* mote_gltf_check of a file; one that is not glTF passes. */
+static mote_status check_gltf(const char *path, bool moves)
+{
+    char *data = NULL;
+    size_t size = 0;
+    mote_gltf gltf = {0};
+    mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &data, &size);
+    if (status == MOTE_OK && mote_gltf_is(path, data, size)) {
+        status = mote_gltf_open(path, data, size, &gltf);
+        if (status == MOTE_OK)
+            status = mote_gltf_check(path, &gltf, moves);
+    }
+    mote_gltf_close(&gltf);
+    free(data);
+    return status;
+}
+
+mote_status mote_assimp_open(const char *path, bool moves, const struct aiScene **scene)
 {
     char dropped = 0;
+    mote_status status = check_gltf(path, moves);
+    if (status != MOTE_OK)
+        return status;
     const struct aiLogStream log = {note_dropped, &dropped};
     aiAttachLogStream(&log);
     /* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp
@@ -184,7 +177,6 @@ mote_status mote_assimp_open(const char *path, const struct aiScene **scene)
     aiDetachLogStream(&log);
     if (!opened)
         return fail_as_assimp_says(path);
-    mote_status status = MOTE_OK;
     if (dropped)
         status = mote_fail(
             MOTE_EINVAL, "%s: a face with an index out of range; use those of vertices", path);
@@ -201,7 +193,7 @@ mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
 {
     const mote_affine identity = mote_affine_identity();
     const struct aiScene *scene = NULL;
-    mote_status status = mote_assimp_open(path, &scene);
+    mote_status status = mote_assimp_open(path, false, &scene);
     if (status != MOTE_OK)
         return status;
     soup->single_precision = true;

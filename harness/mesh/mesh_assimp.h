@@ -24,9 +24,10 @@ const char *mote_assimp_of_mesh(const struct aiMesh *mesh, char text[MOTE_SAID_M
 
 mote_affine mote_assimp_affine(const struct aiMatrix4x4 *m);
 
-/* Reads a file as it is. MOTE_EINVAL: assimp refuses it, a face has an index out of range, or
-   it contains no mesh. Release *scene with aiReleaseImport. */
-mote_status mote_assimp_open(const char *path, const struct aiScene **scene);
+/* Reads a file as it is; moves: for what moves in it, too. MOTE_EINVAL: assimp refuses it or
+   would read it wrongly (mote_gltf_check), a face has an index out of range, or it contains no
+   mesh. Release *scene with aiReleaseImport. */
+mote_status mote_assimp_open(const char *path, bool moves, const struct aiScene **scene);
 
 /* How assimp opens a mesh file and those it names; path, the mesh's, has to last as long. */
 struct aiFileIO mote_assimp_files(char *path);

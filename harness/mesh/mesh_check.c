@@ -25,6 +25,17 @@ typedef struct ply_header {
     unsigned long long vertices;
 } ply_header;
 
+/* We and assimp would take a text with the line ends of old Macs for one line. */
+static mote_status check_line_ends(const char *path, const char *text)
+{
+    if (strchr(text, '\r') && !strchr(text, '\n'))
+        return mote_fail(MOTE_EINVAL,
+                         "%s: lines that end with a carriage return alone; end them with a "
+                         "line feed",
+                         path);
+    return MOTE_OK;
+}
+
 static const char *next_line(const char *at)
 {
     at += strcspn(at, "\n");
@@ -190,7 +201,9 @@ static mote_status check_ply(const char *path, const char *text, size_t size)
 {
     ply_header header = {0};
     const char *body = NULL;
-    mote_status status = read_header(path, text, size, &header, &body);
+    mote_status status = check_line_ends(path, text);
+    if (status == MOTE_OK)
+        status = read_header(path, text, size, &header, &body);
     if (status == MOTE_OK && header.vertices == 0)
         status = mote_fail(MOTE_EINVAL, "%s: declares no vertex; give a mesh", path);
     if (status != MOTE_OK)
@@ -250,7 +263,10 @@ static mote_status check_stl_text(const char *path, const char *text)
 static mote_status check_stl(const char *path, const char *text, size_t size)
 {
     const bool is_text = strlen(text) == size && begins(mote_skip_mark(text), "solid");
-    return is_text ? check_stl_text(path, text) : MOTE_OK;
+    if (!is_text)
+        return MOTE_OK;
+    const mote_status status = check_line_ends(path, text);
+    return status == MOTE_OK ? check_stl_text(path, text) : status;
 }
 
 mote_status mote_soup_refuse_empty(const char *path)
@@ -266,7 +282,7 @@ mote_status mote_soup_check_encoding(const char *path, const char *text, size_t 
         return mote_fail(MOTE_EINVAL, "%s: a text in UTF-16; save it as UTF-8", path);
     if (strlen(text) != size)
         return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
-    return MOTE_OK;
+    return check_line_ends(path, text);
 }
 
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size)

@@ -56,15 +56,15 @@ mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
 /* MOTE_EINVAL for an empty file. */
 mote_status mote_soup_refuse_empty(const char *path);
 
-/* MOTE_EINVAL for a file of text that is empty, in UTF-16, or has a zero byte before its end.
- */
+/* MOTE_EINVAL for a file of text that is empty, in UTF-16, has a zero byte before its end, or
+   carriage returns without line feeds. */
 mote_status mote_soup_check_encoding(const char *path, const char *text, size_t size);
 
-/* Finds errors that assimp silently gets wrong (text ends with a 0 byte). PLY: a header that
-   has no end, declares no vertex, or more than the file can hold; in ASCII, fewer lines than
-   declared, an index out of range, a comma. ASCII STL: an incomplete vertex or facet, or no
-   end. MOTE_EINVAL with the file, and the line if there is one. Other formats, judged by the
-   path's ending, pass. */
+/* Finds errors that assimp silently gets wrong (text ends with a 0 byte). PLY and ASCII STL:
+   carriage returns without line feeds. PLY: a header that has no end, declares no vertex, or
+   more than the file can hold; in ASCII, fewer lines than declared, an index out of range, a
+   comma. ASCII STL: an incomplete vertex or facet, or no end. MOTE_EINVAL with the file, and
+   the line if there is one. Other formats, judged by the path's ending, pass. */
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size);
 
 /* Reads any format that assimp knows; coordinates go through 32-bit floats. Call it in a child

@@ -34,7 +34,8 @@ commit=$(git rev-parse --short=10 HEAD)
 program=${file_of_program:+$(git hash-object "$file_of_program" | cut -c 1-16)}
 no_texts=':!*.md'
 declare -A lists # of sources, by @NAME
-compiled='^(core|baselines|datasets|harness)/.*\.(c|h|cpp|hpp)$'
+in_c='\.(c|h|cpp|hpp)$'
+compiled="^(core|baselines|datasets|harness)/.*$in_c"
 
 # The value of a key in a study.json, which has one a line.
 value() { # FILE KEY
@@ -70,15 +71,15 @@ has_this_program() { # STUDY.JSON CHANGED
 # What is read from standard input without its comments; fails for a FILE that is neither C nor a shell script.
 code() { # FILE
     local first
-    case $1 in
-    *.c | *.h | *.cpp | *.hpp) gcc -fpreprocessed -dD -E -P -x c++ - ;;
-    *.sh) # its first line names the shell; the rest as a function, as the shell prints it
+    if [[ $1 =~ $in_c ]]; then
+        gcc -fpreprocessed -dD -E -P -x c++ -
+    elif [[ $1 = *.sh ]]; then # its first line names the shell; the rest as a function, as the shell prints it
         read -r first
         echo "$first"
         { echo 'script() {' && cat && printf '\n}\ndeclare -f script\n'; } | bash
-        ;;
-    *) return 1 ;;
-    esac
+    else
+        return 1
+    fi
 }
 # Many records were made while a file was the same: what was compared once is known by its hashes.
 compared=$(mktemp -d)

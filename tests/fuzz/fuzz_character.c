@@ -4,6 +4,7 @@
 #include "harness/base/memory.h"
 #include "harness/mesh/character.h"
 #include "harness/mesh/character_parts.h"
+#include "harness/gltf/gltf_file.h"
 #include "harness/scene/player.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -53,6 +54,18 @@ static void read_keys(const char *data, size_t size)
     mote_rig_free(&rig);
 }
 
+/* What is asked before assimp reads a file. */
+static void check(const char *data, size_t size)
+{
+    mote_gltf gltf;
+    if (!mote_gltf_is("any", data, size) || mote_gltf_open("any", data, size, &gltf) != MOTE_OK)
+        return;
+    if (mote_gltf_check("any", &gltf, true) == MOTE_OK &&
+        mote_gltf_check("any", &gltf, false) != MOTE_OK)
+        abort(); /* less is refused where nothing moves */
+    mote_gltf_close(&gltf);
+}
+
 /* The path of a scenario: finer, scaled, with sample poses. Takes the character. */
 static void play(mote_character *character)
 {
@@ -90,6 +103,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     mote_character_draft draft;
     mote_character *character;
+    check((const char *)data, size);
     read_keys((const char *)data, size);
     if (mote_character_receive("any.glb", (const char *)data, size, &draft) != MOTE_OK)
         return 0;

@@ -34,8 +34,8 @@ static const house houses[] = {
      {"base", "body", "parts", "method", "particle", "certificate", "skin", "stream", "impact",
       "batch", "motion"}},
     {"harness",
-     {"base", "process", "engine", "mesh", "sequence", "scene", "run", "loop", "summary",
-      "race", "figure", "study", "report", "command"}},
+     {"base", "process", "engine", "gltf", "mesh", "sequence", "scene", "run", "loop",
+      "summary", "race", "figure", "study", "report", "command"}},
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 

@@ -106,6 +106,19 @@ TEST(character_rests_in_the_units_of_its_bones)
     assert_non_null(strstr(mote_error_text(), "the matrix of bone Joint is not finite"));
 }
 
+/* Two sets of the same weights give each vertex a sum of 2. */
+TEST(character_has_all_sets_of_weights)
+{
+    static const char twice[] =
+        "{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":5,\"WEIGHTS_0\":1,"
+        "\"JOINTS_1\":5,\"WEIGHTS_1\":1}}";
+    const buffer data = make_buffer();
+    mote_character_import facts;
+    write_gltf("c.gltf", &data, TWO_NODES, twice, SKIN);
+    mote_character_destroy(import("c.gltf", &facts));
+    assert_true(facts.off == 1);
+}
+
 /* A mesh with bones stands once, however many nodes refer to it; one without, at each. */
 TEST(character_of_a_mesh_at_two_nodes)
 {
@@ -209,7 +222,7 @@ TEST(files_that_end_early_or_hold_no_mesh_are_refused)
     file_put("c.glb", "glTF\2");
     refuse_mesh("c.glb", "c.glb: ends after 5 of 12 bytes; give the whole glTF file");
     file_put("c.glb", "glTX\2\0\0\0\0\0\0\0");
-    refuse_mesh("c.glb", "c.glb: ");
+    refuse_mesh("c.glb", "c.glb:1: ");
     file_put("c.x", "xof 0303txt 0032\nFrame Root {\n}\n");
     refuse_mesh("c.x", "c.x: no mesh in it; give triangles");
 }

@@ -317,10 +317,11 @@ static void put_word(chunks *file, uint32_t word)
 }
 
 /* A binary file: a header of 12 bytes and two chunks, with lengths that may be wrong. */
-static chunks binary(size_t text_more, size_t bytes_more)
+static chunks binary(size_t spaces, size_t text_more, size_t bytes_more)
 {
     chunks file = {.size = 0};
-    char *text = whole_but(URI, "");
+    char *plain = whole_but(URI, "");
+    char *text = mote_format("%s%*s", plain, (int)(4 - strlen(plain) % 4 + spaces), "");
     const size_t length = strlen(text);
     put(&file, "glTF\2\0\0\0\0\0\0\0", 12);
     put_word(&file, (uint32_t)(length + text_more));
@@ -331,6 +332,7 @@ static chunks binary(size_t text_more, size_t bytes_more)
     put(&file, (float[]){0, 2}, 8);
     for (int k = 1; k <= 24; ++k)
         put(&file, &(float){(float)k}, 4);
+    free(plain);
     free(text);
     return file;
 }
@@ -339,7 +341,8 @@ TEST(gltf_keys_of_a_binary_file_are_in_its_second_chunk)
 {
     static const char early[] = "k.glb: ends early; give the whole file",
                       none[] = "k.glb: cubic keys in no buffer";
-    const chunks whole = binary(0, 0), far_text = binary(1000, 0), far_bytes = binary(0, 1);
+    const chunks whole = binary(0, 0, 0), far_text = binary(0, 1000, 0),
+                 far_bytes = binary(0, 0, 1), odd = binary(2, 0, 0);
     const size_t text = whole.size - 104 - 8;
     const struct {
         const chunks *file;
@@ -348,7 +351,7 @@ TEST(gltf_keys_of_a_binary_file_are_in_its_second_chunk)
     } rows[] = {
         {&whole, whole.size, ""},
         {&whole, 3, "k.glb:1: "},
-        {&whole, 4, early},
+        {&whole, 4, "k.glb: ends after 4 of 12 bytes; give the whole"},
         {&whole, 19, early},
         {&whole, 20, early},
         {&whole, text - 1, early},
@@ -357,6 +360,7 @@ TEST(gltf_keys_of_a_binary_file_are_in_its_second_chunk)
         {&whole, whole.size - 1, none},
         {&far_text, far_text.size, early},
         {&far_bytes, far_bytes.size, none},
+        {&odd, odd.size, "which is no multiple of 4; add spaces"},
     };
     double wanted[18];
     for (int k = 0; k < 18; ++k)

@@ -274,6 +274,12 @@ static const bad_text bad_texts[] = {
     /* Two groups crash assimp 5.2. */
     {"b.raw", "a\n1 1 1 0 0 0 0 1 0 1 0 0\n\nb\n1 1 1 0 0 0 0 1 0 1 0 0\n",
      "b.raw: the reader of this format: crashed: "},
+    /* The line ends of old Macs. */
+    {"m.obj", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
+     "m.obj: lines that end with a carriage return alone; end them with a line feed"},
+    {"m.off", "OFF\r3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r", "m.off: lines that end with a"},
+    {"m.ply", "ply\rformat ascii 1.0\rend_header\r", "m.ply: lines that end with a"},
+    {"m.stl", "solid t\rendsolid t\r", "m.stl: lines that end with a"},
     /* Polygons that are not simple. */
     {"w.obj", "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n",
      "w.obj:5: a face whose edges 1 and 3 cross or touch; give triangles"},

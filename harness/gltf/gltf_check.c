@@ -1,0 +1,181 @@
+/* What assimp 5.2 reads wrongly in a glTF file without saying so (datasets/defects.md, entry
+   22). glTF 2.0, sections 3.6 and 3.7, allow weights and keys as normalised integers;
+   KHR_mesh_quantization allows positions. */
+#include "harness/gltf/gltf_file.h"
+
+#include <string.h>
+
+typedef struct checker {
+    const char *path;
+    const mote_gltf *gltf;
+    const char *list; /* of the file, with the entry being checked, for messages */
+    size_t number;
+} checker;
+
+/* Extensions without which a mesh has other numbers, or none. */
+static mote_status check_extensions(const checker *c)
+{
+    static const struct {
+        const char *name, *right;
+    } unread[] = {
+        {"KHR_draco_mesh_compression", "uncompress it, as gltf-transform dequantize does"},
+        {"EXT_meshopt_compression", "uncompress it, as gltf-transform dequantize does"},
+        {"KHR_meshopt_compression", "uncompress it, as gltf-transform dequantize does"},
+        {"EXT_mesh_gpu_instancing", "give each instance a node"},
+    };
+    const json_t *required = json_object_get(c->gltf->root, "extensionsRequired");
+    for (size_t i = 0; i < json_array_size(required); ++i) {
+        const char *name = json_string_value(json_array_get(required, i));
+        for (size_t k = 0; name && k < sizeof unread / sizeof unread[0]; ++k) {
+            if (strcmp(name, unread[k].name) == 0)
+                return mote_fail(MOTE_EINVAL, "%s: requires %s, which assimp does not read; %s",
+                                 c->path, name, unread[k].right);
+        }
+    }
+    return MOTE_OK;
+}
+
+static const char *component_name(int64_t component)
+{
+    switch (component) {
+    case 5120:
+    case 5121:
+        return "8-bit integers";
+    case 5122:
+    case 5123:
+        return "16-bit integers";
+    case 5125:
+        return "32-bit integers";
+    default:
+        return "numbers of an unknown type";
+    }
+}
+
+/* The accessor that a member names, or NULL. */
+static const json_t *accessor_of(const checker *c, const json_t *object, const char *member)
+{
+    return mote_gltf_entry(c->gltf, "accessors", mote_gltf_whole(object, member));
+}
+
+/* Checks that an accessor has floats; none passes. what: its name in a message. */
+static mote_status check_floats(const checker *c, const json_t *accessor, const char *what)
+{
+    const int64_t component = mote_gltf_whole(accessor, "componentType");
+    if (!accessor || component == MOTE_GLTF_FLOATS)
+        return MOTE_OK;
+    return mote_fail(
+        MOTE_EINVAL,
+        "%s: %s[%zu]: %s has %s, which assimp takes for floats; write 32-bit floats%s", c->path,
+        c->list, c->number, what, component_name(component),
+        strcmp(c->list, "meshes") == 0 ? ", as gltf-transform dequantize does" : "");
+}
+
+/* Checks that an accessor has at least `count` elements of a type (NULL: any); none passes. */
+static mote_status check_shape(const checker *c, const json_t *accessor, const char *what,
+                               const char *type, int64_t count)
+{
+    const char *own = json_string_value(json_object_get(accessor, "type"));
+    const int64_t elements = mote_gltf_whole(accessor, "count");
+    if (!accessor || (own && (!type || strcmp(own, type) == 0) && elements >= count))
+        return MOTE_OK;
+    return mote_fail(
+        MOTE_EINVAL, "%s: %s[%zu]: %s has too few elements, or of a wrong type; give %lld%s%s",
+        c->path, c->list, c->number, what, (long long)(count > 0 ? count : elements),
+        type ? " of " : "", type ? type : "");
+}
+
+/* Checks for both. */
+static mote_status check_numbers(const checker *c, const json_t *accessor, const char *what,
+                                 const char *type, int64_t count)
+{
+    const mote_status status = check_floats(c, accessor, what);
+    return status == MOTE_OK ? check_shape(c, accessor, what, type, count) : status;
+}
+
+/* Checks the bones' numbers and weights of as many vertices. */
+static mote_status check_influences(const checker *c, json_t *attributes, int64_t vertices)
+{
+    mote_status status = MOTE_OK;
+    const char *name;
+    json_t *value;
+    json_object_foreach(attributes, name, value)
+    {
+        const json_t *accessor = accessor_of(c, attributes, name);
+        if (status == MOTE_OK && strncmp(name, "WEIGHTS_", strlen("WEIGHTS_")) == 0)
+            status = check_numbers(c, accessor, "WEIGHTS", "VEC4", vertices);
+        if (status == MOTE_OK && strncmp(name, "JOINTS_", strlen("JOINTS_")) == 0)
+            status = check_shape(c, accessor, "JOINTS", "VEC4", vertices);
+    }
+    return status;
+}
+
+static mote_status check_targets(const checker *c, const json_t *targets)
+{
+    mote_status status = MOTE_OK;
+    for (size_t t = 0; t < json_array_size(targets) && status == MOTE_OK; ++t)
+        status = check_numbers(c, accessor_of(c, json_array_get(targets, t), "POSITION"),
+                               "a target's POSITION", "VEC3", 0);
+    return status;
+}
+
+static mote_status check_primitive(const checker *c, const json_t *primitive, bool moves)
+{
+    json_t *attributes = json_object_get(primitive, "attributes");
+    const json_t *positions = accessor_of(c, attributes, "POSITION");
+    mote_status status = check_numbers(c, positions, "POSITION", "VEC3", 0);
+    if (status == MOTE_OK && moves)
+        status = check_influences(c, attributes, mote_gltf_whole(positions, "count"));
+    if (status == MOTE_OK && moves)
+        status = check_targets(c, json_object_get(primitive, "targets"));
+    return status;
+}
+
+static mote_status check_mesh(const checker *c, const json_t *mesh, bool moves)
+{
+    const json_t *primitives = json_object_get(mesh, "primitives");
+    mote_status status = MOTE_OK;
+    for (size_t p = 0; p < json_array_size(primitives) && status == MOTE_OK; ++p)
+        status = check_primitive(c, json_array_get(primitives, p), moves);
+    return status;
+}
+
+static mote_status check_skin(const checker *c, const json_t *skin, bool moves)
+{
+    static const char what[] = "inverseBindMatrices";
+    const size_t joints = json_array_size(json_object_get(skin, "joints"));
+    return moves ? check_numbers(c, accessor_of(c, skin, what), what, "MAT4", (int64_t)joints)
+                 : MOTE_OK;
+}
+
+static mote_status check_animation(const checker *c, const json_t *animation, bool moves)
+{
+    const json_t *samplers = json_object_get(animation, "samplers");
+    mote_status status = MOTE_OK;
+    for (size_t s = 0; moves && s < json_array_size(samplers) && status == MOTE_OK; ++s) {
+        const json_t *sampler = json_array_get(samplers, s);
+        const json_t *times = accessor_of(c, sampler, "input");
+        status = check_numbers(c, times, "a sampler's input", NULL, 0);
+        if (status == MOTE_OK)
+            status = check_numbers(c, accessor_of(c, sampler, "output"), "a sampler's output",
+                                   NULL, mote_gltf_whole(times, "count"));
+    }
+    return status;
+}
+
+mote_status mote_gltf_check(const char *path, const mote_gltf *gltf, bool moves)
+{
+    static const struct {
+        const char *name;
+        mote_status (*check)(const checker *c, const json_t *entry, bool moves);
+    } lists[] = {
+        {"meshes", check_mesh}, {"skins", check_skin}, {"animations", check_animation}};
+    checker c = {.path = path, .gltf = gltf};
+    mote_status status = check_extensions(&c);
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; ++i) {
+        const json_t *list = json_object_get(gltf->root, lists[i].name);
+        c.list = lists[i].name;
+        for (c.number = 0; c.number < json_array_size(list) && status == MOTE_OK; ++c.number)
+            status = lists[i].check(&c, json_array_get(list, c.number), moves);
+    }
+    return status;
+}

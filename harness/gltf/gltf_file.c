@@ -1,0 +1,96 @@
+#include "harness/gltf/gltf_file.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+static bool is_binary(const char *data, size_t size)
+{
+    return size >= 4 && memcmp(data, "glTF", 4) == 0;
+}
+
+bool mote_gltf_is(const char *path, const char *data, size_t size)
+{
+    const char *ending = strrchr(path, '.');
+    size_t at = 0;
+    while (at < size && data[at] && strchr(" \t\r\n", data[at]))
+        ++at;
+    return is_binary(data, size) || (at < size && data[at] == '{') ||
+           (ending && (strcasecmp(ending, ".gltf") == 0 || strcasecmp(ending, ".glb") == 0));
+}
+
+static uint32_t word(const char *bytes)
+{
+    uint32_t value = 0;
+    for (int k = 3; k >= 0; --k)
+        value = value << 8 | (unsigned char)bytes[k];
+    return value;
+}
+
+/* Finds the JSON text of a file, and the buffer of a binary one. */
+static mote_status find_text(const char *path, const char *data, size_t size, mote_gltf *gltf,
+                             const char **text, size_t *length)
+{
+    *text = data;
+    *length = size;
+    if (!is_binary(data, size))
+        return MOTE_OK;
+    const uint32_t whole = size < 12 ? 12 : word(data + 8);
+    if (size < whole)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: ends after %zu of %u bytes; give the whole glTF file", path, size,
+                         whole);
+    if (size < 20 || word(data + 12) > size - 20)
+        return mote_fail(MOTE_EINVAL, "%s: ends early; give the whole file", path);
+    *text = data + 20;
+    *length = word(data + 12);
+    const size_t at = 20 + *length;
+    if (size - at < 8)
+        return MOTE_OK;
+    if (word(data + 4) >= 2 && *length % 4 != 0)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: its JSON has %zu bytes, which is no multiple of 4; add spaces",
+                         path, *length);
+    if (word(data + at) <= size - at - 8) {
+        gltf->bin = data + at + 8;
+        gltf->bin_size = word(data + at);
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote_gltf *gltf)
+{
+    const char *text;
+    size_t length;
+    json_error_t error;
+    *gltf = (mote_gltf){0};
+    const mote_status status = find_text(path, data, size, gltf, &text, &length);
+    if (status != MOTE_OK)
+        return status;
+    gltf->root = json_loadb(text, length, 0, &error);
+    if (!gltf->root)
+        return mote_fail(MOTE_EINVAL, "%s:%d: %s; write JSON", path, error.line, error.text);
+    return MOTE_OK;
+}
+
+void mote_gltf_close(mote_gltf *gltf)
+{
+    json_decref(gltf->root);
+    *gltf = (mote_gltf){0};
+}
+
+const json_t *mote_gltf_entry(const mote_gltf *gltf, const char *list, int64_t index)
+{
+    return index < 0 ? NULL : json_array_get(json_object_get(gltf->root, list), (size_t)index);
+}
+
+int64_t mote_gltf_whole(const json_t *object, const char *key)
+{
+    const json_t *value = json_object_get(object, key);
+    const double real = json_real_value(value);
+    if (json_is_integer(value))
+        return json_integer_value(value) < 0 ? -1 : json_integer_value(value);
+    return json_is_real(value) && real >= 0 && real <= 0x1p53 && real == floor(real)
+               ? (int64_t)real
+               : -1;
+}
