@@ -33,7 +33,8 @@ static mote_status find_text(const char *path, const char *data, size_t size, mo
 {
     *text = data;
     *length = size;
-    if (!is_binary(data, size))
+    gltf->is_binary = is_binary(data, size);
+    if (!gltf->is_binary)
         return MOTE_OK;
     const uint32_t whole = size < 12 ? 12 : word(data + 8);
     if (size < whole)

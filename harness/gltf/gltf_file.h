@@ -14,6 +14,7 @@
 
 typedef struct mote_gltf {
     json_t *root;
+    bool is_binary;
     const char *bin; /* buffer 0 of a binary file, in the file's data; otherwise NULL */
     size_t bin_size;
 } mote_gltf;

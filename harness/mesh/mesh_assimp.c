@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX])
 {
@@ -143,6 +144,17 @@ static mote_status fail_as_assimp_says(const char *path)
         said);
 }
 
+/* assimp takes a glTF file for a binary one by its name alone. */
+static mote_status check_name(const char *path, const mote_gltf *gltf)
+{
+    const char *ending = strrchr(path, '.');
+    const bool says_binary = ending && strcasecmp(ending, ".glb") == 0;
+    if (gltf->is_binary == says_binary)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "%s: glTF, and %s; give it a name that ends in %s", path,
+                     gltf->is_binary ? "binary" : "text", gltf->is_binary ? ".glb" : ".gltf");
+}
+
 /* mote_gltf_check of a file; one that is not glTF passes. */
 static mote_status check_gltf(const char *path, bool moves)
 {
@@ -152,6 +164,8 @@ static mote_status check_gltf(const char *path, bool moves)
     mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &data, &size);
     if (status == MOTE_OK && mote_gltf_is(path, data, size)) {
         status = mote_gltf_open(path, data, size, &gltf);
+        if (status == MOTE_OK)
+            status = check_name(path, &gltf);
         if (status == MOTE_OK)
             status = mote_gltf_check(path, &gltf, moves);
     }

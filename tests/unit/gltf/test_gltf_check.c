@@ -202,15 +202,24 @@ TEST(gltf_is_recognised_by_its_name_or_by_its_content)
     }
 }
 
-TEST(gltf_of_any_name_is_checked)
+static void refuse(const char *path, const char *says)
 {
     mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_import(path, &mesh, NULL), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), says))
+        fail_msg("%s; not: %s", mote_error_text(), says);
+}
+
+TEST(gltf_of_any_name_is_checked)
+{
     char *text = text_of(1);
     write_numbers();
     file_put("model", text);
-    assert_int_equal(mote_mesh_import("model", &mesh, NULL), MOTE_EINVAL);
-    assert_non_null(
-        strstr(mote_error_text(), "model: meshes[0]: POSITION has 16-bit integers"));
+    refuse("model", "model: meshes[0]: POSITION has 16-bit integers");
+    file_put("c.glb", text);
+    refuse("c.glb", "c.glb: glTF, and text; give it a name that ends in .gltf");
+    file_write("c.vrm", "glTF\2\0\0\0\30\0\0\0\4\0\0\0JSON{}  ", 24);
+    refuse("c.vrm", "c.vrm: glTF, and binary; give it a name that ends in .glb");
     free(text);
 }
 
