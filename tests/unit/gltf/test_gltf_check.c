@@ -85,11 +85,9 @@ static const struct {
      INTEGERS("animations[0]", "a sampler's output", "8-bit")},
     {KEYS, ACCESSOR(4, 5126, 1, VEC4), "", SHAPE("animations[0]", "a sampler's output", "2")},
     /* What a file only uses may be ignored; what it requires may not. */
-    {REQUIRED, REQUIRED ",\"extensionsUsed\":[\"KHR_draco_mesh_compression\"]", "", NULL},
+    {REQUIRED, REQUIRED ",\"extensionsUsed\":[\"EXT_meshopt_compression\"]", "", NULL},
     {REQUIRED, REQUIRED ",\"extensionsRequired\":[\"KHR_texture_basisu\"]", "", NULL},
-    {REQUIRED, REQUIRED ",\"extensionsRequired\":[3,\"KHR_draco_mesh_compression\"]",
-     PACKED("KHR_draco_mesh_compression"), NULL},
-    {REQUIRED, REQUIRED ",\"extensionsRequired\":[\"EXT_meshopt_compression\"]",
+    {REQUIRED, REQUIRED ",\"extensionsRequired\":[3,\"EXT_meshopt_compression\"]",
      PACKED("EXT_meshopt_compression"), NULL},
     {REQUIRED, REQUIRED ",\"extensionsRequired\":[\"KHR_meshopt_compression\"]",
      PACKED("KHR_meshopt_compression"), NULL},
