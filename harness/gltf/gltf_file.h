@@ -23,7 +23,8 @@ typedef struct mote_gltf {
 bool mote_gltf_is(const char *path, const char *data, size_t size);
 
 /* Reads a file of size bytes, which must outlive gltf->bin. MOTE_EINVAL: a binary file that
-   ends early, or text that is no JSON. Close with mote_gltf_close. */
+   ends early or whose JSON fills no whole words, or text that is no JSON. Close with
+   mote_gltf_close. */
 mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote_gltf *gltf);
 void mote_gltf_close(mote_gltf *gltf);
 
