@@ -13,7 +13,7 @@ typedef struct checker {
 } checker;
 
 /* Extensions without which a mesh has other numbers, or none. Draco, if built in, is read. */
-static mote_status check_extensions(const checker *c)
+static mote_status check_extensions(const char *path, const mote_gltf *gltf)
 {
     static const struct {
         const char *name, *right;
@@ -22,13 +22,13 @@ static mote_status check_extensions(const checker *c)
         {"KHR_meshopt_compression", "uncompress it, as gltf-transform dequantize does"},
         {"EXT_mesh_gpu_instancing", "give each instance a node"},
     };
-    const json_t *required = json_object_get(c->gltf->root, "extensionsRequired");
+    const json_t *required = json_object_get(gltf->root, "extensionsRequired");
     for (size_t i = 0; i < json_array_size(required); ++i) {
         const char *name = json_string_value(json_array_get(required, i));
         for (size_t k = 0; name && k < sizeof unread / sizeof unread[0]; ++k) {
             if (strcmp(name, unread[k].name) == 0)
                 return mote_fail(MOTE_EINVAL, "%s: requires %s, which assimp does not read; %s",
-                                 c->path, name, unread[k].right);
+                                 path, name, unread[k].right);
         }
     }
     return MOTE_OK;
@@ -117,64 +117,79 @@ static mote_status check_targets(const checker *c, const json_t *targets)
     return status;
 }
 
-static mote_status check_primitive(const checker *c, const json_t *primitive, bool moves)
+static mote_status check_positions(const checker *c, const json_t *primitive)
+{
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    return check_numbers(c, accessor_of(c, attributes, "POSITION"), "POSITION", "VEC3", 0);
+}
+
+/* Checks what moves the vertices of a primitive whose positions have passed. */
+static mote_status check_movers(const checker *c, const json_t *primitive)
 {
     json_t *attributes = json_object_get(primitive, "attributes");
     const json_t *positions = accessor_of(c, attributes, "POSITION");
-    mote_status status = check_numbers(c, positions, "POSITION", "VEC3", 0);
-    if (status == MOTE_OK && moves)
-        status = check_influences(c, attributes, mote_gltf_whole(positions, "count"));
-    if (status == MOTE_OK && moves)
-        status = check_targets(c, json_object_get(primitive, "targets"));
-    return status;
+    const mote_status status =
+        check_influences(c, attributes, mote_gltf_whole(positions, "count"));
+    return status == MOTE_OK ? check_targets(c, json_object_get(primitive, "targets")) : status;
 }
 
-static mote_status check_mesh(const checker *c, const json_t *mesh, bool moves)
-{
-    const json_t *primitives = json_object_get(mesh, "primitives");
-    mote_status status = MOTE_OK;
-    for (size_t p = 0; p < json_array_size(primitives) && status == MOTE_OK; ++p)
-        status = check_primitive(c, json_array_get(primitives, p), moves);
-    return status;
-}
-
-static mote_status check_skin(const checker *c, const json_t *skin, bool moves)
+static mote_status check_skin(const checker *c, const json_t *skin)
 {
     static const char what[] = "inverseBindMatrices";
     const size_t joints = json_array_size(json_object_get(skin, "joints"));
-    return moves ? check_numbers(c, accessor_of(c, skin, what), what, "MAT4", (int64_t)joints)
-                 : MOTE_OK;
+    return check_numbers(c, accessor_of(c, skin, what), what, "MAT4", (int64_t)joints);
 }
 
-static mote_status check_animation(const checker *c, const json_t *animation, bool moves)
+static mote_status check_sampler(const checker *c, const json_t *sampler)
 {
-    const json_t *samplers = json_object_get(animation, "samplers");
+    const json_t *times = accessor_of(c, sampler, "input");
+    const mote_status status = check_numbers(c, times, "a sampler's input", NULL, 0);
+    return status == MOTE_OK
+               ? check_numbers(c, accessor_of(c, sampler, "output"), "a sampler's output", NULL,
+                               mote_gltf_whole(times, "count"))
+               : status;
+}
+
+/* Of each entry of a list of the file, or of the parts of each, such as a mesh's primitives. */
+typedef struct check {
+    const char *list, *parts;
+    mote_status (*run)(const checker *c, const json_t *part);
+    bool moves; /* only asked of files that move */
+} check;
+
+static mote_status check_entry(const checker *c, const check *which, const json_t *entry)
+{
+    if (!which->parts)
+        return which->run(c, entry);
+    const json_t *parts = json_object_get(entry, which->parts);
     mote_status status = MOTE_OK;
-    for (size_t s = 0; moves && s < json_array_size(samplers) && status == MOTE_OK; ++s) {
-        const json_t *sampler = json_array_get(samplers, s);
-        const json_t *times = accessor_of(c, sampler, "input");
-        status = check_numbers(c, times, "a sampler's input", NULL, 0);
-        if (status == MOTE_OK)
-            status = check_numbers(c, accessor_of(c, sampler, "output"), "a sampler's output",
-                                   NULL, mote_gltf_whole(times, "count"));
-    }
+    for (size_t p = 0; p < json_array_size(parts) && status == MOTE_OK; ++p)
+        status = which->run(c, json_array_get(parts, p));
+    return status;
+}
+
+static mote_status check_list(const char *path, const mote_gltf *gltf, const check *which)
+{
+    const json_t *list = json_object_get(gltf->root, which->list);
+    checker c = {.path = path, .gltf = gltf, .list = which->list};
+    mote_status status = MOTE_OK;
+    for (; c.number < json_array_size(list) && status == MOTE_OK; ++c.number)
+        status = check_entry(&c, which, json_array_get(list, c.number));
     return status;
 }
 
 mote_status mote_gltf_check(const char *path, const mote_gltf *gltf, bool moves)
 {
-    static const struct {
-        const char *name;
-        mote_status (*check)(const checker *c, const json_t *entry, bool moves);
-    } lists[] = {
-        {"meshes", check_mesh}, {"skins", check_skin}, {"animations", check_animation}};
-    checker c = {.path = path, .gltf = gltf};
-    mote_status status = check_extensions(&c);
-    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; ++i) {
-        const json_t *list = json_object_get(gltf->root, lists[i].name);
-        c.list = lists[i].name;
-        for (c.number = 0; c.number < json_array_size(list) && status == MOTE_OK; ++c.number)
-            status = lists[i].check(&c, json_array_get(list, c.number), moves);
+    static const check checks[] = {
+        {"meshes", "primitives", check_positions, false},
+        {"meshes", "primitives", check_movers, true},
+        {"skins", NULL, check_skin, true},
+        {"animations", "samplers", check_sampler, true},
+    };
+    mote_status status = check_extensions(path, gltf);
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && status == MOTE_OK; ++i) {
+        if (moves || !checks[i].moves)
+            status = check_list(path, gltf, &checks[i]);
     }
     return status;
 }

@@ -2,8 +2,8 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
-#include "harness/mesh/character_parts.h"
 #include "harness/gltf/gltf_file.h"
+#include "harness/mesh/character_parts.h"
 #include "harness/mesh/import_child.h"
 
 #include <assert.h>

@@ -16,7 +16,7 @@ libraries="$build/libmote_baselines.a -lfcl -lccd -lgsl -lgslcblas -ljansson -la
     -lmeshoptimizer -ldl -lpthread -lm"
 cache=$(command -v ccache || true)
 
-sources=$(ls core/*/*.c datasets/*.c harness/{base,engine,mesh,scene,sequence}/*.c |
+sources=$(ls core/*/*.c datasets/*.c harness/{base,engine,gltf,mesh,scene,sequence}/*.c |
     grep -v -e core/certificate/plain.c -e core/base/version.c)
 for name in child confine crew spawn; do
     sources="$sources harness/process/$name.c"

@@ -4,6 +4,7 @@
 #include "harness/mesh/character_parts.h"
 #include "tests/support/bar.h"
 #include "tests/support/test.h"
+#include "tests/unit/mesh/refused.h"
 
 #include <math.h>
 
@@ -173,15 +174,6 @@ static void refuse(const char *path, const char *says)
     if (strncmp(mote_error_text(), says, strlen(says)) != 0)
         fail_msg("%s", mote_error_text());
     assert_null(c);
-}
-
-static void refuse_mesh(const char *path, const char *says)
-{
-    mote_mesh *mesh = NULL;
-    test_row("%s", says);
-    assert_int_equal(mote_mesh_import(path, &mesh, NULL), MOTE_EINVAL);
-    if (strncmp(mote_error_text(), says, strlen(says)) != 0)
-        fail_msg("%s", mote_error_text());
 }
 
 TEST(character_without_faces_or_with_bad_ones_is_refused)
