@@ -32,7 +32,7 @@
 #   make impacts [PROFILE=quick|full] [OUT=DIR]      is an impact ever missed, or false?
 #   make impact-speed [PROFILE=quick|full] [OUT=DIR] impacts within steps: certified, samples, others
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
-#   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
+#   make reliability [PROFILE=quick|full] [PLANT=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60] [TARGET=mesh]             what comes from outside, fuzzed (libFuzzer)
 #   make determinism [RUNS=56]                       one hash over all answers: compilers, threads
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
@@ -255,10 +255,8 @@ impacts: program-impacts program-impact_steps
 impact-speed: build
 	@harness/scripts/impact_speed.sh $(MOTE) $(PROFILE) $(call out,impact-speed)
 
-# PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
-# into results/reference; ONLY="kills fuzz" runs some of the studies.
+# PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; ONLY="kills fuzz" runs some of the studies.
 PLANT ?=
-RECORD ?=
 reliability: build-tests program-kills build-fuzz
 	@$(call configure,asan)
 	@$(call compile,build-asan,test_faults test_allocations) > /dev/null
@@ -268,7 +266,7 @@ reliability: build-tests program-kills build-fuzz
 	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/scripts/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
 	    $(call out,reliability) \
-	    $(if $(PLANT),plant,$(if $(RECORD),record))
+	    $(if $(PLANT),plant)
 
 RUNS ?= 56
 .PHONY: determinism
@@ -276,9 +274,10 @@ determinism: build deps-test
 	@tests/scripts/portability.sh .
 	@tests/scripts/determinism.sh $(BUILD) $(RUNS) $(JOBS)
 
-# As many targets at a time as there are cores.
+# As many targets at a time as there are cores. RECORD=1 adds the hours to results/fuzz.csv.
 SECONDS ?= 60
 TARGET ?=
+RECORD ?=
 .PHONY: fuzz build-fuzz
 build-fuzz: deps-test deps-fuzz
 	@$(call configure,fuzz)
@@ -287,7 +286,7 @@ build-fuzz: deps-test deps-fuzz
 fuzz: build-fuzz
 	@TARGET="$(TARGET)" tests/scripts/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
 	    $(call out,fuzz) $(SEED)
-	@$(if $(RECORD),tests/scripts/record.sh --fuzz $(call out,fuzz)/fuzz.tsv)
+	@$(if $(RECORD),tests/scripts/log_fuzz.sh $(call out,fuzz)/fuzz.tsv)
 
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1
@@ -324,12 +323,12 @@ perf-ab: build deps-valgrind
 	@CHANGED=$(CHANGED) harness/scripts/perf_ab.sh $(BUILD) $(call out,perf-ab) $(call quoted,$(BASE))
 
 # As many races of a build against itself, and of each planted slowdown; hours for all, and what was
-# raced stays in OUT/races.csv. RECORD=1: into results/reference.
+# raced stays in OUT/races.csv.
 RACES ?= 200
 PLANTED ?= 40
 perf-study: program-race_study program-race_planted
 	@harness/scripts/perf_study.sh $(BUILD) $(call out,perf-study) $(RACES) $(PLANTED) \
-	    $(call quoted,$(ONLY)) $(if $(RECORD),record)
+	    $(call quoted,$(ONLY))
 
 test-perf: program-perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf
@@ -412,16 +411,15 @@ check-static: deps-lint
 	    core harness datasets baselines
 
 # Fails below 99 % of core's branches or 94 % of harness's; OUT/coverage.html has them line by line.
-# TESTS='test_mesh|test_lazy' runs these alone; RECORD=1: into results/reference.
+# TESTS='test_mesh|test_lazy' runs these alone.
 .PHONY: coverage
 coverage: deps-test deps-coverage
 	@$(call configure,coverage)
 	@$(call compile,build-coverage) > /dev/null
 	@tests/scripts/coverage.sh build-coverage $(JOBS) \
 	    $(call out,coverage) '$(TESTS)'
-	@$(if $(RECORD),tests/scripts/record.sh --coverage $(call out,coverage)/coverage.tsv)
 
-# A seeded sample of each module; FILES='core/body/triangle*' looks at one file. RECORD=1: into results/reference.
+# A seeded sample of each module; FILES='core/body/triangle*' looks at one file.
 # An hour on two cores; below 85 % it fails.
 COUNT ?= 120
 FILES ?= *
@@ -430,7 +428,6 @@ mutation: build-tests
 	@/usr/bin/python3 tests/scripts/mutate.py $(BUILD) \
 	    $(call out,mutation) \
 	    --files '$(FILES)' --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
-	@$(if $(RECORD),tests/scripts/record.sh --mutation $(call out,mutation)/mutation.tsv)
 
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.

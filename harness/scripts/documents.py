@@ -3,10 +3,10 @@
 
 A table between the lines "<!-- from SOURCE -->" and "<!-- to here -->" of a document is written again (make
 documents). SOURCE is a file of the accepted reference (reference/summary.json), or STUDY/FILE: that of the newest
-record of a study of `make record`, or, while there is none, FILE in results/reference; what follows a "#" is one of
-several tables of the same file; checks, fuzz, coverage, mutation and soak are those of tables/reliability.py. Above the
-table stands when it was measured, and whether the study's sources have changed since. A number within a sentence is
-typed by hand; the sentence stands in sentences.py with its values, and has to be in the document, rounded as there.
+record of a study of `make record`; what follows a "#" is one of several tables of the same file; checks, fuzz, coverage,
+mutation and soak are those of tables/reliability.py. Above the table stands when it was measured, and whether the study's
+sources have changed since. A number within a sentence is typed by hand; the sentence stands in sentences.py with its
+values, and has to be in the document, rounded as there.
 --check writes nothing, and says what disagrees. Status: 0 all agree, 1 something disagrees, 4 a file is missing or cannot be read."""
 import functools
 import os
@@ -30,7 +30,7 @@ from tables.pairs import BENCH, pairs_table
 from tables.python_speed import PYTHON, python_table
 from tables.races import RACES, races_figure
 from tables.readers import READERS, readers_table
-from tables.records import csv_rows, has_changed, record_of, study_of
+from tables.records import file_of, has_changed, study_of
 from tables.reference import SUMMARY, reference_table
 from tables.reliability import GATHERED
 from tables.streamed import AUTO, RATIOS, auto_table, ratios_table
@@ -52,10 +52,7 @@ def heading(root, source, document, old):
         return []
     if source in GATHERED:
         return heading_of_gathered(root, GATHERED[source].records(root), document, old)
-    record = record_of(root, source)
-    if not record:
-        when = max(row["measured"] for row in csv_rows(root, source))[:10]
-        return [f"Measured until {when}, before there was a record; {CHANGED}.", ""]
+    record = file_of(root, source).parent
     study = study_of(record)
     changed = has_changed(root, record)
     changed = CHANGED in old if changed is None else changed
@@ -74,7 +71,7 @@ def heading_of_gathered(root, records, document, old):
     if not links:
         return []
     sources = f" The sources of {', '.join(changed)} have changed since." if changed else ""
-    return [f"Recorded: {', '.join(links)}; what no record has stands in the reference.{sources}", ""]
+    return [f"Recorded: {', '.join(links)}.{sources}", ""]
 
 
 TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
@@ -89,7 +86,7 @@ TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CR
 
 
 def documents(root):
-    return [root / "README.md", *sorted((root / "docs").glob("*.md")), root / "results/reference/reliability.md"]
+    return [root / "README.md", *sorted((root / "docs").glob("*.md"))]
 
 
 def blocks(document, text):

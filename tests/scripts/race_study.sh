@@ -1,8 +1,8 @@
 #!/bin/sh
-# race_study.sh RACE_STUDY RECORD WORK: make perf-study finds the races that it has stored, and counts them in its
-# table; RECORD/power.md is the table of RECORD/races.csv. What is raced here answers at once.
+# race_study.sh RACE_STUDY RECORDS WORK: make perf-study finds the races that it has stored, and counts them in its
+# table. In each record of the gate below RECORDS, power.md is the table of races.csv. What is raced here answers at once.
 set -eu
-study=$1 record=$2 work=$3
+study=$1 records=$2 work=$3
 fail() { echo "race_study: $*" >&2; exit 1; }
 rm -rf "$work"
 mkdir -p "$work/programs"
@@ -37,4 +37,6 @@ for place in idle 'beside a compiler'; do
     grep -qF "| unchanged, $place | 1 | 0 of 1 (0 to " "$work/power.md" || fail "$place: $(cat "$work/power.md")"
 done
 
-"$study" table "$record/races.csv" "$work/power" | cmp - "$record/power.md"
+for record in "$records"/*/gate; do
+    "$study" table "$record/races.csv" "$work/power" | cmp - "$record/power.md"
+done

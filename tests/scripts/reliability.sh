@@ -1,16 +1,11 @@
 #!/usr/bin/env bash
 # make reliability: runs the studies one after another, prints a table of what was tried, how often,
 # and what failed, and writes OUT/reliability.json, a list of {check, tried, failed}.
-#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ BUILD_TSAN quick|full OUT [plant|record]
+#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ BUILD_TSAN quick|full OUT [plant]
 # plant: adds one wrong answer, one lost row and one leak, which must be reported, and nothing else.
-# record: writes the table to results/reference. Full takes hours: JOBS=2 fuzzes two targets at a
-# time, ONLY="kills fuzz" runs some of the studies.
+# Full takes hours: JOBS=2 fuzzes two targets at a time, ONLY="kills fuzz" runs some of the studies.
 set -u
-build=$1 asan=$2 fuzz=$3 tsan=$4 profile=$5 out=$6 plant= record=
-case ${7:-} in
-plant) plant=plant ;;
-record) record=record ;;
-esac
+build=$1 asan=$2 fuzz=$3 tsan=$4 profile=$5 out=$6 plant=${7:-}
 only=${ONLY:-certify skins streamed impacts metamorphic soak oracle answers threads kills stops faults fuzz}
 case $profile in
 quick) queries=20000 impacts=5000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=56 ;;
@@ -45,7 +40,6 @@ fuzz() {
     local failed=0
     log fuzz tests/scripts/fuzz.sh "$fuzz" $seconds "${JOBS:-1}" "$out/fuzz" || failed=1
     awk -F'\t' '{ printf "fuzz: %s\t%d\t%d\n", $1, $3, $4 }' "$out/fuzz/fuzz.tsv" >>"$checks"
-    [ -z "$record" ] || tests/scripts/record.sh --fuzz "$out/fuzz/fuzz.tsv"
     [ $failed -eq 0 ] || tail -30 "$out/fuzz.log" >&2
     return $failed
 }
@@ -94,8 +88,7 @@ study() { # NAME
             --out "$out/impacts.json" ;;
     metamorphic) log metamorphic "$build/tests/metamorphic" --queries $queries --checks "$checks" ;;
     soak) # shellcheck disable=SC2086 # two words
-        log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} || return
-        [ -z "$record" ] || tests/scripts/record.sh --soak "$out/soak.csv" ;;
+        log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} ;;
     oracle)
         program "triangle pairs against rational arithmetic" oracle '"pairs": *[0-9]+' \
             "$build/tests/oracle" --pairs $pairs --out "$out/oracle.json" ;;
@@ -141,7 +134,6 @@ awk -F'\t' 'BEGIN { print "[" }
     echo "$(date -u +%Y-%m-%d), commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $profile."
 } >"$out/reliability.md"
 cat "$out/reliability.md"
-[ -z "$record" ] || tests/scripts/record.sh "$checks"
 # Every check must have tried something, and only planted failures may occur.
 if awk -F'\t' '$2 < 1 { bad = 1 } END { exit !bad }' "$checks"; then
     echo "reliability: a check tried nothing" >&2

@@ -1,5 +1,4 @@
-"""Where results are stored: those of the newest record of a study of `make record`, or, while there is none, of
-the reference."""
+"""Where results are stored: in the newest record of a study of `make record`, or in the accepted reference."""
 import csv
 import functools
 import json
@@ -12,14 +11,14 @@ def study_of(record):
     return json.loads((record / "study.json").read_text())
 
 
-def newest(root, studies, files, counts=lambda record: True):
-    """By name, the newest record of each study that has such files and counts; studies and files are patterns."""
+def newest(root, studies, files, rank=lambda record: 0):
+    """By name, the record of each study that has such files and the highest rank, of several the newest; studies and
+    files are patterns."""
     found = {}
     for file in sorted(root.glob(f"results/records/*/{studies}/{files}")):
         record = file.parent
-        if counts(record):
-            other = found.get(record.name, record)
-            found[record.name] = max(record, other, key=lambda folder: study_of(folder)["ended"])
+        other = found.get(record.name, record)
+        found[record.name] = max(record, other, key=lambda folder: (rank(folder), study_of(folder)["ended"]))
     return dict(sorted(found.items()))
 
 
@@ -30,7 +29,12 @@ def record_of(root, source):
 
 
 def file_of(root, source):
-    return (record_of(root, source) or root / "results" / "reference") / Path(source).name
+    if source.startswith("reference/"):
+        return root / "results" / source
+    record = record_of(root, source)
+    if not record:
+        raise FileNotFoundError(f"no record in results/records has {source}; make record makes one")
+    return record / Path(source).name
 
 
 @functools.cache

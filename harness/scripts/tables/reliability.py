@@ -1,16 +1,10 @@
-"""Tables of what was checked, fuzzed, covered and planted. Each is gathered from the newest records of some studies,
-and from the reference (tests/scripts/record.sh) where that has what no record has."""
+"""Tables of what was checked, fuzzed, covered and planted. Each is gathered from the newest records of some studies."""
 import csv
 import functools
 import json
 from collections import defaultdict, namedtuple
 
-from tables.records import csv_rows, newest, study_of
-
-RELIABILITY = "reference/reliability.csv"
-MUTATION = "reference/mutation.csv"
-COVERAGE = "reference/coverage.csv"
-SOAK = "reference/soak.csv"
+from tables.records import newest, study_of
 
 
 def rows_of(record, files):
@@ -30,35 +24,21 @@ def measured(record):
     return f"{study['ended'][:10]}, {study['commit'][:7]}" + (f", {done} of {parts} samples" if done < parts else "")
 
 
-def stored(row):
-    return f"{row['date']}, {row['commit']}"
-
-
-@functools.cache
-def checks_of_reference(root):
-    return {row["check"]: (int(row["tried"]), int(row["failed"]), row["date"]) for row in csv_rows(root, RELIABILITY)}
-
-
-def counts_as_checks(root, record):
-    """A record of some parts counts once it has tried as many as the reference, or where something failed."""
+def replaces_whole(record):
+    """Some parts of a study do not take the place of an older whole record, unless something failed in them."""
     done, parts = parts_of(record)
-    rows, before = list(rows_of(record, "checks.tsv")), checks_of_reference(root)
-    return (done == parts or any(int(failed) > 0 for _, _, failed in rows)
-            or all(int(tried) >= before.get(check, (0,))[0] for check, tried, _ in rows))
+    return done == parts or any(int(failed) > 0 for _, _, failed in rows_of(record, "checks.tsv"))
 
 
 def records_of_checks(root):
-    return newest(root, "*", "checks.tsv", functools.partial(counts_as_checks, root))
+    return newest(root, "*", "checks.tsv", replaces_whole)
 
 
 @functools.cache
 def checks(root):
     """By name, how many cases were tried, how many failed, and when."""
-    found = {check: (int(tried), int(failed), study_of(record)["ended"][:10])
-             for record in records_of_checks(root).values() for check, tried, failed in rows_of(record, "checks.tsv")}
-    for check, row in checks_of_reference(root).items():
-        found.setdefault(check, row)
-    return found
+    return {check: (int(tried), int(failed), study_of(record)["ended"][:10])
+            for record in records_of_checks(root).values() for check, tried, failed in rows_of(record, "checks.tsv")}
 
 
 def failures(root, check, of="random scenarios"):
@@ -79,11 +59,12 @@ def records_of_fuzz(root):
 
 
 def fuzz_table(root):
-    """The hours of the record and those of tests/corpus/log.csv. Inputs that were found and mended are in the corpus."""
+    """The hours of the record and those of results/fuzz.csv. Inputs that were found and mended are in the corpus."""
     runs = defaultdict(list)
-    with open(root / "tests/corpus/log.csv", newline="", encoding="utf-8") as file:
+    with open(root / "results/fuzz.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            runs[row["target"]].append((int(row["cpu_seconds"]), int(row["executions"]), int(row["findings"]), stored(row)))
+            runs[row["target"]].append((int(row["cpu_seconds"]), int(row["executions"]), int(row["findings"]),
+                                        f"{row['date']}, {row['commit']}"))
     for record in records_of_fuzz(root).values():
         for target, *counts in rows_of(record, "fuzz*.tsv"):
             runs[target].append((*map(int, counts), measured(record)))
@@ -101,15 +82,12 @@ def records_of_coverage(root):
 
 
 def coverage_table(root):
-    rows = {row["folder"]: (int(row["branches"]), int(row["taken"]), stored(row))
-            for row in csv_rows(root, COVERAGE)}
-    for record in records_of_coverage(root).values():
-        for folder, branches, taken in rows_of(record, "coverage.tsv"):
-            rows[folder] = (int(branches), int(taken), measured(record))
     yield "| branches of | in all | taken | share | measured |"
     yield "| --- | ---: | ---: | ---: | --- |"
-    for folder, (branches, taken, when) in rows.items():
-        yield f"| {folder} | {branches:,} | {taken:,} | {100 * taken / branches:.2f} % | {when} |"
+    for record in records_of_coverage(root).values():
+        for folder, *counts in rows_of(record, "coverage.tsv"):
+            branches, taken = map(int, counts)
+            yield f"| {folder} | {branches:,} | {taken:,} | {100 * taken / branches:.2f} % | {measured(record)} |"
 
 
 def records_of_mutation(root):
@@ -118,15 +96,13 @@ def records_of_mutation(root):
 
 def mutation_table(root):
     """Mutants that change no promised answer count neither way."""
-    rows = {row["module"]: (*(int(row[key]) for key in ("mutants", "killed", "equivalent")), stored(row))
-            for row in csv_rows(root, MUTATION)}
-    for record in records_of_mutation(root).values():
-        parts = list(rows_of(record, "mutation*.tsv"))
-        rows[parts[0][0]] = (*(sum(int(part[k]) for part in parts) for k in (1, 2, 3)), measured(record))
     yield "| mutants of | tried | killed | change nothing | score | measured |"
     yield "| --- | ---: | ---: | ---: | ---: | --- |"
-    for module, (tried, killed, same, when) in rows.items():
-        yield f"| {module} | {tried:,} | {killed:,} | {same} | {100 * killed / (tried - same):.1f} % | {when} |"
+    for record in records_of_mutation(root).values():
+        parts = list(rows_of(record, "mutation*.tsv"))
+        tried, killed, same = (sum(int(part[k]) for part in parts) for k in (1, 2, 3))
+        yield (f"| {parts[0][0]} | {tried:,} | {killed:,} | {same} | {100 * killed / (tried - same):.1f} % | "
+               f"{measured(record)} |")
 
 
 # Of one method: decades[k] counts errors of at most 1e-k L that are above 1e-(k+1) L; [-1]: those above L.
@@ -145,23 +121,15 @@ def soaked_methods(root):
             for method in json.loads(file.read_text())["methods"]]
 
 
-def soak_lines(root):
-    """Method and numbers of each run that is stored: of the record, or of the reference while that has more."""
-    stored = [[row["method"], row["queries"], row["missed"], row["false_contacts"], row["largest_error"],
-               *(row[f"below_1e-{k}"] for k in DECADES[:-1]), row["more"]] for row in csv_rows(root, SOAK)]
-    recorded = [[*(method[key] for key in ("method", "queries", "missed", "false_contacts", "largest_error")),
-                 *method["decades"]] for method in soaked_methods(root)]
-    return max(stored, recorded, key=lambda rows: sum(int(row[1]) for row in rows))
-
-
 @functools.cache
 def soaks(root):
-    """By method, the sums over all runs."""
+    """By method, the sums over all parts."""
     found = {}
-    for method, queries, missed, _, largest, *counts in soak_lines(root):
-        sums = found.get(method, Soak(0, 0, 0.0, dict.fromkeys(DECADES, 0)))
-        found[method] = Soak(sums.queries + int(queries), sums.missed + int(missed), max(sums.largest, float(largest)),
-                             {k: sums.decades[k] + int(count) for k, count in zip(DECADES, counts)})
+    for part in soaked_methods(root):
+        sums = found.get(part["method"], Soak(0, 0, 0.0, dict.fromkeys(DECADES, 0)))
+        found[part["method"]] = Soak(
+            sums.queries + part["queries"], sums.missed + part["missed"], max(sums.largest, part["largest_error"]),
+            {k: sums.decades[k] + count for k, count in zip(DECADES, part["decades"])})
     return found
 
 

@@ -363,13 +363,16 @@ TEST(programs_whose_instructions_are_counted_are_told_what_may_be_read)
     free(told);
 }
 
-/* Methods of a library are raced if both programs load it. */
+/* Methods of a library are raced if both programs load it. Beside other work the verdict may be
+   undecided (3). */
 TEST(racers_load_libraries)
 {
-    mote_expect(0, "/plugin-points/hot",
-                "race %s %s " SCENARIO " --frames 1-9 --plugin %s --method plugin-points "
-                "--budget 60 --until 50%% --real 50%%",
-                MOTE_PROGRAM, MOTE_PROGRAM, MOTE_RACE_PLUGIN);
+    const int status =
+        mote("race %s %s " SCENARIO " --frames 1-9 --plugin %s --method plugin-points "
+             "--budget 60 --until 50%% --real 50%%",
+             MOTE_PROGRAM, MOTE_PROGRAM, MOTE_RACE_PLUGIN);
+    assert_true(status == 0 || status == 3);
+    assert_non_null(strstr(said, "/plugin-points/hot"));
     assert_null(strstr(said, "unknown method"));
 }
 
