@@ -11,7 +11,6 @@
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make record [OUT=DIR]                             keep a run's summary in results/records
-#   make readme-figure [OUT=DIR]                     measure the README's figure again
 #   make engines [PROFILE=quick] [OUT=DIR]           other engines and ours, asked the same
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
@@ -139,12 +138,6 @@ bench: build page
 .PHONY: sweep
 sweep: build
 	@harness/scripts/bench.sh $(MOTE) sweep $(call out,sweep)
-
-# The figure of the README: measured, drawn, and put where the README looks for it.
-.PHONY: readme-figure
-readme-figure: build page
-	@harness/scripts/bench.sh $(MOTE) fig3 $(call out,fig3)
-	@cp $(call out,fig3)/figures/fig3.svg results/reference/fig3.svg
 
 # Other engines and ours, asked for contacts and for distances of the same frames.
 .PHONY: engines

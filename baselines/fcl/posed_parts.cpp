@@ -260,9 +260,9 @@ mote_status FclParts::update(const mote_frame *frame)
 {
     for (int b = 0; b < 2; ++b) {
         const mote_body_state &moved = frame->body[b];
-        mote_status status = mote_input_check_pose(&moved.pose, b);
         if (!moved.shape_changed && !moved.pose_changed)
             continue;
+        mote_status status = mote_input_check_pose(&moved.pose, b);
         box[b] = Box();
         for (std::size_t i = 0; i < parts[b].size() && status == MOTE_OK; ++i) {
             status = pose_part(skin[b], moved, scale, *parts[b][i]);

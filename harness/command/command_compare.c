@@ -13,13 +13,16 @@
 static void print_table(const mote_comparison *c)
 {
     int width = 4;
+    size_t tested = 0;
     for (size_t i = 0; i < c->count; ++i) {
         int length = (int)strlen(c->changes[i].name);
         width = length > width ? length : width;
+        tested += c->changes[i].p == c->changes[i].p ? 1 : 0;
     }
-    (void)printf("time new / base, 95 %% interval, p corrected over %zu rows; an effect counts "
-                 "from %.1f %% on\n",
-                 c->count, 100 * c->floor);
+    (void)printf(
+        "time new / base, 95 %% interval, p corrected over %zu row%s; an effect counts "
+        "from %.1f %% on\n",
+        tested, tested == 1 ? "" : "s", 100 * c->floor);
     if (c->other_machine)
         (void)printf("the processors differ: times only as ratios to fcl-aabb, within a wide "
                      "margin; counts, bytes and accuracy as they are\n");

@@ -319,14 +319,16 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
     return record_json(cell, object, directory);
 }
 
-mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status status,
-                                     const char *reason, uint64_t program,
-                                     const char *directory)
+mote_status mote_cell_record_failure(const mote_cell *cell, const mote_cell_failure *failure,
+                                     uint64_t program, const char *directory)
 {
-    json_t *object = cell_json(cell, status, program);
-    if (json_object_set_new(object, "reason", json_string(reason)) != 0) {
+    json_t *object = cell_json(cell, failure->status, program);
+    if (json_object_set_new(object, "reason", json_string(failure->reason)) != 0) {
         json_decref(object);
         object = NULL;
     }
+    if (failure->timeout_seconds > 0)
+        (void)json_object_set_new(object, "timeout_seconds",
+                                  json_real(failure->timeout_seconds));
     return record_json(cell, object, directory);
 }

@@ -163,10 +163,16 @@ bool mote_cell_told_positions(const mote_cell *cell);
 mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *result,
                              uint64_t program, const char *directory);
 
-/* Writes the JSON of a cell that failed; reason is one line. */
-mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status status,
-                                     const char *reason, uint64_t program,
-                                     const char *directory);
+/* How a cell failed. */
+typedef struct mote_cell_failure {
+    mote_cell_status status;
+    const char *reason;     /* one line */
+    double timeout_seconds; /* the limit that it exceeded; 0: none */
+} mote_cell_failure;
+
+/* Writes the JSON of a cell that failed. */
+mote_status mote_cell_record_failure(const mote_cell *cell, const mote_cell_failure *failure,
+                                     uint64_t program, const char *directory);
 
 /* Every parameter with its value, including defaults: numbers as numbers; choices, "auto" and
    "inf" as text. of_scene: also those of mote_scene_parameters. The caller decrefs. */

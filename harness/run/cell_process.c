@@ -191,9 +191,10 @@ mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *
 {
     message told;
     mote_status status = listen(options, child, &told);
+    const mote_cell_failure failure = {told.cell, told.text,
+                                       told.cell == MOTE_CELL_TIMEOUT ? options->timeout : 0};
     if (status == MOTE_OK && told.cell != MOTE_CELL_OK)
-        status = mote_cell_record_failure(cell, told.cell, told.text, options->program,
-                                          options->directory);
+        status = mote_cell_record_failure(cell, &failure, options->program, options->directory);
     if (status != MOTE_OK)
         return status;
     end->status = told.cell;

@@ -87,6 +87,13 @@ static mote_status load_subjects(run *r)
     return MOTE_OK;
 }
 
+/* Whether an earlier result stays: not if it exceeded a limit that is larger now. */
+static bool stays(const json_t *object, double timeout)
+{
+    const double limit = mote_number_at(object, "timeout_seconds");
+    return !(limit > 0) || (timeout > 0 && timeout <= limit);
+}
+
 /* Looks up an earlier result for this cell. */
 static void look_up(run *r, size_t index)
 {
@@ -98,8 +105,8 @@ static void look_up(run *r, size_t index)
         return;
     const char *status = json_string_value(json_object_get(object, "status"));
     json_int_t stride = json_integer_value(json_object_get(object, "stride"));
-    bool whole = status && stride >= 1 && stride <= UINT32_MAX;
-    if (whole) {
+    const bool whole = status && stride >= 1 && stride <= UINT32_MAX;
+    if (whole && stays(object, r->options->timeout)) {
         const double seconds = mote_number_at(object, "wall_seconds");
         cell->stride = (uint32_t)stride;
         r->prospects[index].done = true;

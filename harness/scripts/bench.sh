@@ -126,11 +126,6 @@ full)
 sweep)
     sizes
     ;;
-fig3)
-    # shellcheck disable=SC2046
-    measure ww --replicates 5 --method $plain --method $tuned --method fcl-obbrss --method certified \
-        --method particle-paper:n=5 $(distance_engines)
-    ;;
 engines)
     engines 3 all
     ;;
@@ -138,7 +133,7 @@ engines-quick)
     engines 3 few
     ;;
 *)
-    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full, sweep, fig3, engines or engines-quick" >&2
+    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full, sweep, engines or engines-quick" >&2
     exit 2
     ;;
 esac

@@ -26,11 +26,11 @@ from tables.extremes import EXTREMES, extremes_table
 from tables.impacts import (DYNAMICS, FCL_SPEED, LONG_STEPS, SHORT_STEPS, SPEED, fcl_table, impact_table, long_steps_table,
                             short_steps_table)
 from tables.loops import dynamics_table
-from tables.pairs import BENCH, pairs_table
+from tables.pairs import BENCH, FIGURE_3, figure_3, pairs_table
 from tables.python_speed import PYTHON, python_table
 from tables.races import RACES, races_figure
 from tables.readers import READERS, readers_table
-from tables.records import file_of, has_changed, study_of
+from tables.records import file_of, has_changed, reference_has_changed, reference_origin, study_of
 from tables.reference import SUMMARY, reference_table
 from tables.reliability import GATHERED
 from tables.streamed import AUTO, RATIOS, auto_table, ratios_table
@@ -49,7 +49,10 @@ def heading(root, source, document, old):
     """When a table was measured. old: the block as it stands, which is believed where nothing else tells."""
     source = source.partition("#")[0]
     if source.startswith("reference/"):
-        return []
+        commit, date = reference_origin(root)
+        changed = reference_has_changed(root, commit)
+        changed = CHANGED in old if changed is None else changed
+        return [f"Measured on {date}, commit {commit}{'; ' + CHANGED if changed else ''}.", ""]
     if source in GATHERED:
         return heading_of_gathered(root, GATHERED[source].records(root), document, old)
     record = file_of(root, source).parent
@@ -74,7 +77,7 @@ def heading_of_gathered(root, records, document, old):
     return [f"Recorded: {', '.join(links)}.{sources}", ""]
 
 
-TABLES = {SUMMARY: reference_table, BENCH: pairs_table, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
+TABLES = {SUMMARY: reference_table, BENCH: pairs_table, FIGURE_3: figure_3, BODIES: bodies_table, CROWDS: crowd_table, ENGINES: engines_table,
           PEERS: peers_tables, VERDICTS: verdicts_table,
           LARGE_VERDICTS: functools.partial(verdicts_table, source=LARGE_VERDICTS), DYNAMICS: dynamics_table,
           LONG_STEPS: long_steps_table, SHORT_STEPS: short_steps_table, SPEED: impact_table, FCL_SPEED: fcl_table,

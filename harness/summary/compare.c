@@ -135,12 +135,25 @@ static void say_other_reference(const mote_summary_row *base, const mote_summary
     free(text);
 }
 
+/* Whether another row has all replicates of a row. */
+static bool are_within(const mote_summary_row *row, const mote_summary_row *other)
+{
+    bool within = true;
+    for (size_t p = 0; within && p < row->process_count; ++p)
+        within = find_process(other, row->processes[p].replicate) != NULL;
+    return within;
+}
+
+/* The fastest of more replicates is faster, so quiet times are compared only where both rows
+   have the same replicates. */
 static void compare_times(const mote_summary_row *base, const mote_summary_row *fresh,
                           bool other_machine, mote_change *change)
 {
     static double logs[PAIRS_MAX];
     const yardstick by = {other_machine, same_reference(base, fresh)};
-    size_t count = quiet_changes(base, fresh, by, logs);
+    size_t count = 0;
+    if (are_within(base, fresh) && are_within(fresh, base))
+        count = quiet_changes(base, fresh, by, logs);
     if (count < MOTE_QUIET_GROUPS)
         count = process_changes(base, fresh, by, logs);
     if (!by.ratios)
@@ -155,27 +168,26 @@ static void compare_times(const mote_summary_row *base, const mote_summary_row *
 static void say(mote_change *change, const char *name, double base, double fresh)
 {
     const char *separator = change->what.size ? "; " : "";
-    if (base > 0)
-        mote_text_add(&change->what, "%s%s %.6g to %.6g (%+.2g %%)", separator, name, base,
-                      fresh, 100 * (fresh / base - 1));
-    else
-        mote_text_add(&change->what, "%s%s %.6g to %.6g", separator, name, base, fresh);
+    char was[32] = "unknown", is[32] = "unknown";
+    if (base == base)
+        (void)snprintf(was, sizeof was, "%.6g", base);
+    if (fresh == fresh)
+        (void)snprintf(is, sizeof is, "%.6g", fresh);
+    mote_text_add(&change->what, "%s%s %s to %s", separator, name, was, is);
+    if (base > 0 && fresh == fresh)
+        mote_text_add(&change->what, " (%+.2g %%)", 100 * (fresh / base - 1));
 }
 
 void mote_change_figure(mote_change *change, const char *name, double base, double fresh,
                         double share)
 {
-    double slack = share * fmax(fabs(base), fabs(fresh));
-    bool known = base == base && fresh == fresh;
-    if (!known && (base == base) == (fresh == fresh))
-        return;
-    if (known && fabs(fresh - base) <= slack)
+    const double slack = share * fmax(fabs(base), fabs(fresh));
+    const bool was_known = base == base, is_known = fresh == fresh;
+    if ((!was_known && !is_known) || fabs(fresh - base) <= slack)
         return;
     say(change, name, base, fresh);
-    if (!known || fresh > base)
-        change->worse = true;
-    else
-        change->better = true;
+    change->worse = change->worse || (was_known && !(fresh <= base));
+    change->better = change->better || fresh < base;
 }
 
 /* Whether the two rows have a replicate in common. */
@@ -222,15 +234,6 @@ static void compare_counts(const mote_summary_row *base, const mote_summary_row 
                           fabs(sums[0] - sums[1]) > MOTE_EXACT_SHARE * fmax(sums[0], sums[1]);
         mote_change_figure(change, name, sums[0], sums[1], MOTE_EXACT_SHARE);
     }
-}
-
-/* Whether another row has all replicates of a row. */
-static bool are_within(const mote_summary_row *row, const mote_summary_row *other)
-{
-    bool within = true;
-    for (size_t p = 0; within && p < row->process_count; ++p)
-        within = find_process(other, row->processes[p].replicate) != NULL;
-    return within;
 }
 
 /* Whether all replicates of a row counted the same: they then gave the same answers. */

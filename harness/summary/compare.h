@@ -17,17 +17,17 @@ typedef struct mote_change {
     char *name;   /* "ww/particle-paper:n=5/hot": scene, label and caches; or
                      "ww/certified/simulated" */
     double ratio; /* time new / base; relative to fcl-aabb within each run if both have it */
-    mote_confidence
-        interval;           /* of the ratio: t over groups of quiet times, or over replicates */
-    double p;               /* for no change, corrected by Holm over all rows */
-    mote_verdict verdict;   /* of the time */
-    double smallest_change; /* smallest detectable change, a share; MOTE_NONE: unknown */
-    bool is_reference;      /* fcl-aabb itself: its time says nothing about our methods */
-    bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
+    mote_confidence interval; /* of the ratio: t over groups of quiet times where both rows have
+                                 the same replicates, otherwise over those that both have */
+    double p;                 /* for no change, corrected by Holm over all rows */
+    mote_verdict verdict;     /* of the time */
+    double smallest_change;   /* smallest detectable change, a share; MOTE_NONE: unknown */
+    bool is_reference;        /* fcl-aabb itself: its time says nothing about our methods */
+    bool worse;     /* slower, more counted, more bytes, less accurate, or no longer known */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
     bool counted;   /* a count changed */
     bool executed;  /* instructions changed */
-    bool unknown;   /* the new run lacks something that the base has: undecided */
+    bool unknown;   /* something that the base has cannot be compared: undecided */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
 } mote_change;
 
@@ -47,7 +47,8 @@ typedef struct mote_comparison {
 /* Notes that something in the base cannot be compared, which makes the row undecided. */
 void mote_change_unknown(mote_change *change, const char *what);
 
-/* Compares a value of which less is better, equal within a share, and notes a difference. */
+/* Compares a value of which less is better, equal within a share, and notes a difference. A
+   value that only the base has is worse, one that only the new run has is neither. */
 void mote_change_figure(mote_change *change, const char *name, double base, double fresh,
                         double share);
 

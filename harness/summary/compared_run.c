@@ -2,6 +2,7 @@
 
 #include "core/method/method.h"
 #include "harness/base/record.h"
+#include "harness/summary/row_label.h"
 #include "harness/summary/summary_json.h"
 
 #include <stdlib.h>
@@ -100,19 +101,18 @@ static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
     const mote_method *method = mote_method_find(a->method);
     const char *key;
     json_t *value;
+    bool same = true;
     MOTE_EACH_MEMBER(key, value, a->parameters)
     {
+        bool usual, other_usual;
         const json_t *other = json_object_get(b->parameters, key);
-        bool same = other && json_equal(value, other);
-        for (size_t i = 0; !other && method && i < method->parameter_count; ++i) {
-            const mote_parameter *known = &method->parameters[i];
-            same = same || (json_is_string(value) && strcmp(known->key, key) == 0 &&
-                            strcmp(known->fallback, json_string_value(value)) == 0);
-        }
-        if (!same)
-            return false;
+        char *text = mote_row_value(method, key, value, &usual);
+        char *other_text = other ? mote_row_value(method, key, other, &other_usual) : NULL;
+        same = same && (other ? strcmp(text, other_text) == 0 : usual);
+        free(text);
+        free(other_text);
     }
-    return true;
+    return same;
 }
 
 bool mote_compared_agree(const char *a, const char *b)

@@ -31,8 +31,11 @@ static void print_apart(const mote_summary *summary, const mote_summary_row *row
     for (size_t i = 0; i < summary->count; ++i)
         frames = frames || (mote_summary_by_scene(&summary->rows[i], row) == 0 &&
                             mote_summary_by_frames(&summary->rows[i], row) != 0);
+    const uint32_t first = row->frame_range[0];
+    const uint32_t last = row->bodies > 0 && row->frames > 0 ? first + (uint32_t)row->frames - 1
+                                                             : row->frame_range[1];
     if (frames)
-        (void)fprintf(out, ", frames %u-%u", row->frame_range[0], row->frame_range[1]);
+        (void)fprintf(out, ", frames %u-%u", first, last);
     if (mote_summary_machines_differ(summary))
         (void)fprintf(out, ", on %s", row->machine);
 }

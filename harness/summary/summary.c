@@ -59,11 +59,12 @@ bool mote_summary_machines_differ(const mote_summary *summary)
     return false;
 }
 
-/* Whether another row was asked for all frames of this one. */
+/* Whether another row was asked for all frames of this one and, of many bodies, has them. */
 static bool covers(const mote_summary_row *other, const mote_summary_row *row)
 {
     return other->frame_range[0] <= row->frame_range[0] &&
-           other->frame_range[1] >= row->frame_range[1];
+           other->frame_range[1] >= row->frame_range[1] &&
+           (row->bodies == 0 || other->frames >= row->frames);
 }
 
 /* FCL's AABB tree as its users call it: with the default of each parameter, wherever the

@@ -117,9 +117,11 @@ static soak_tally certified_sum(const soak *s)
 
 static bool add_checks(const soak *s)
 {
-    const soak_tally certified = certified_sum(s);
+    const soak_tally certified = certified_sum(s), *bounded = &s->sum[SOAK_BOUNDED];
     return checks_add(s->checks, "random scenarios: certified beyond 1e-12 L of the truth",
-                      certified.queries, certified.wrong) &&
+                      certified.queries - bounded->queries, certified.wrong - bounded->wrong) &&
+           checks_add(s->checks, "random scenarios: a bracket that does not hold the truth",
+                      bounded->queries, bounded->wrong + bounded->violated) &&
            checks_add(s->checks, "random scenarios: a lower bound above the truth",
                       certified.queries, certified.violated) &&
            checks_add(s->checks, "random scenarios: crashes, hangs, particles below the truth",

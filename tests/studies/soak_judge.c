@@ -10,7 +10,6 @@
 
 #define RIGHT 1e-12 /* of L */
 #define CONTACT 0.0
-#define BOUNDED 4 /* the exact method that may stop early, with a bracket */
 
 const char *const soak_methods[SOAK_METHODS] = {
     "certified",           "certified:seed=none", "certified:seed=tracked",
@@ -75,7 +74,7 @@ static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answ
     *truth = answers[SOAK_EXACT - 1].distance;
     bool agreed = true;
     for (int m = 0; m < SOAK_EXACT && agreed; ++m)
-        agreed = m == BOUNDED || is_right(answers[m].distance, *truth, length);
+        agreed = m == SOAK_BOUNDED || is_right(answers[m].distance, *truth, length);
     if (agreed)
         return MOTE_OK;
     ++b->verdict.settled;
@@ -109,9 +108,9 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
     const double error = fabs(answer->distance - truth) / length;
     const bool violated = answer->has_lower && !(answer->lower <= truth + 1e-15 * length);
     bool wrong = !(answer->distance >= 0) || !(error < HUGE_VAL);
-    if (m < SOAK_EXACT && m != BOUNDED)
+    if (m < SOAK_EXACT && m != SOAK_BOUNDED)
         wrong = wrong || !(error <= RIGHT);
-    if (m < BOUNDED)
+    if (m < SOAK_BOUNDED)
         wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, rounding);
     /* Witnesses lie on the surfaces, so no method's distance may be below the truth. */
     wrong = wrong || answer->distance < truth - RIGHT * length;
@@ -130,7 +129,7 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
     tally->false_contacts += truth > RIGHT * length && answer->distance <= CONTACT;
     if (!(error <= tally->largest))
         tally->largest = error;
-    if (m < BOUNDED && !((truth - answer->lower) / length <= tally->loosest))
+    if (m < SOAK_BOUNDED && !((truth - answer->lower) / length <= tally->loosest))
         tally->loosest = (truth - answer->lower) / length;
     return wrong || violated;
 }

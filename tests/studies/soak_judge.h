@@ -8,8 +8,8 @@
 #include <stdint.h>
 
 /* Exact methods first. The last of them is the truth; where one differs, other arithmetic
-   judges it in turn. */
-enum { SOAK_EXACT = 6, SOAK_METHODS = 9, SOAK_DECADES = 18 };
+   judges it in turn. SOAK_BOUNDED is the one that may stop early, with a bracket. */
+enum { SOAK_BOUNDED = 4, SOAK_EXACT = 6, SOAK_METHODS = 9, SOAK_DECADES = 18 };
 extern const char *const soak_methods[SOAK_METHODS];
 
 typedef struct soak_tally {

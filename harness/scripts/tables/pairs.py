@@ -5,6 +5,8 @@ from tables.number_text import digits, exact_text, span
 from tables.records import csv_rows, figure, is_right
 
 BENCH = "bench/summary.csv"
+FIGURE_3 = "bench/fig3.svg"
+CURVES_OF_FIGURE_3 = ("particle-paper:n=5", "fcl-aabb", "fcl-aabb:seed=previous", "fcl-aabb:queue=64,seed=previous", "fcl-obbrss")
 # Of these, only contact is asked, or no body deforms and nobody has to refit (the table of engines has some); crowd is no pair.
 NOT_AMONG_PAIRS = ("tt", "ww-contact", "mv-contact", "tt-distance", "rigid-ww", "rigid-mv", "flat", "sliver-3", "sliver-6",
                    "still", "touch", "crowd")
@@ -30,6 +32,31 @@ def evicted(root, scenario):
     """The median of the certified query where caches are evicted before each frame, over that where they are hot."""
     row = next(row for row in csv_rows(root, BENCH) if (row["scenario"], row["cache"], row["label"]) == (scenario, "evict", "certified"))
     return float(row["total_ns_median"]) / float(pairs(root)[scenario, "certified"]["total_ns_median"])
+
+
+def figure_3(root):
+    yield figure(root, FIGURE_3, "Time of each query of two deforming letters W, particles against FCL")
+
+
+def processes_of_figure_3(root):
+    """The least and the largest number of processes of a curve."""
+    return span([int(pairs(root)["ww", label]["replicates"]) for label in CURVES_OF_FIGURE_3])
+
+
+def paper_to_exact(root, scenario, n):
+    """The median of the paper's method with n particles over that of the certified query, in all frames."""
+    return _median(root, scenario, f"particle-paper:n={n}") / _median(root, scenario, "certified")
+
+
+def _median(root, scenario, label):
+    return float(pairs(root)[scenario, label]["total_ns_median"])
+
+
+def fcl_to_paper(root, scenario, cache):
+    """How many times as long FCL takes with its defaults as five of the paper's particles, in all frames."""
+    row = next(row for row in csv_rows(root, BENCH)
+               if (row["scenario"], row["cache"], row["label"]) == (scenario, cache, "particle-paper:n=5"))
+    return float(row["ratio"])
 
 
 def tail(root, scenario):

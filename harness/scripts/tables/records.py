@@ -58,6 +58,19 @@ def has_changed(root, record):
     return changed if changed is None else record.name in changed
 
 
+def reference_origin(root):
+    """The commit and the day of the accepted reference."""
+    manifest = json.loads(file_of(root, "reference/manifest.json").read_text())
+    return manifest["commit"][:10], manifest["sessions"][0]["started"][:10]
+
+
+def reference_has_changed(root, commit):
+    """Whether what the accepted reference measured has changed since; None without the repository that tells."""
+    status = subprocess.run(["git", "diff", "--quiet", commit, "--", "core", "baselines", "datasets", "harness"],
+                            cwd=root, capture_output=True, check=False).returncode
+    return {0: False, 1: True}.get(status)
+
+
 @functools.cache
 def csv_rows(root, source):
     with open(file_of(root, source), newline="", encoding="utf-8") as file:

@@ -425,6 +425,27 @@ TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
     assert_non_null(strstr(said, "0 of them done"));
 }
 
+/* With a larger limit it may succeed; with the same one it would fail again. */
+TEST(run_with_a_larger_limit_measures_again_what_exceeded_the_old_one)
+{
+    static const char line[] = "tt --frames 1-2 --replicates 1 --method fcl-aabb --timeout";
+    static const struct {
+        const char *timeout;
+        int status;
+        const char *says;
+    } cases[] = {{"20", 5, "1 of them done"},
+                 {"10", 5, "1 of them done"},
+                 {"21", 0, "0 of them done"},
+                 {"0.001", 0, "1 of them done"}};
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
+    change_cell("{'status': 'timeout', 'timeout_seconds': 20}");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        test_row("%s", cases[i].timeout);
+        mote_expect(cases[i].status, cases[i].says, "run %s %s --out .", line,
+                    cases[i].timeout);
+    }
+}
+
 /* The stride of the cells of a configuration is that of a stored one, also for a cell that
    stands before it in the plan: the stored one is of the second replicate, and not the stride
    that a probe of so fast a method suggests. */

@@ -181,8 +181,8 @@ TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
         {"{}", "{'replicates_failed': 2}", 1, "WORSE : failed replicates 0 to 2"},
         {"{'replicates_failed': 2}", "{'replicates_failed': 1}", 0, "failed replicates 2 to 1"},
         {"{'replicates_failed': 1}", "{'replicates_failed': 1}", 0, "same or better"},
-        {"{'missed': 1}", "{'missed': null}", 1, "WORSE : missed 1 to nan"},
-        {"{'missed': null}", "{'missed': 1}", 1, "missed nan to 1"},
+        {"{'missed': 1}", "{'missed': null}", 1, "WORSE : missed 1 to unknown"},
+        {"{'missed': null}", "{'missed': 1}", 0, "missed unknown to 1\n"},
         {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-13}}", 0, "same or better"},
         {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-11}}", 1, "p99 1e-14 to 1e-11"},
         {"{'processes': []}", "{}", 0, " - "},
@@ -289,15 +289,35 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
     remove_beside();
 }
 
+/* The fastest of each group of replicates is faster where groups are larger, as if the method
+   had changed; processes are compared one by one. */
+TEST(compare_of_unequal_replicates_compares_those_that_both_have)
+{
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    change_row("old", "summary.json", "{'quiet': {'ratio': [100, 100.1, 100, 100.1, 100]}}");
+    change_row("new", "summary.json", "{'quiet': {'ratio': [120, 120.1, 120, 120.1, 120]}}");
+    expect("", 0, "faster");
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json("new", "summary.json", &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    json_t *processes = json_object_get(row, "processes");
+    assert_int_equal(json_array_append_new(processes, one_process(&usual, 6, 1)), 0);
+    put("new", "summary.json", summary);
+    expect("", 0, "same");
+    assert_null(strstr(said, "faster"));
+    mote_expect(0, "same", "compare new old");
+    assert_null(strstr(said, "slower"));
+}
+
 /* A run from before a parameter was added had the default. */
 TEST(compare_of_rows_with_a_parameter_that_is_new_finds_the_default)
 {
     static const struct {
         const char *parameters; /* of the new run */
         int status;
-    } cases[] = {{"'build': 'rest'", 0},
-                 {"'build': 'samples'", 4},
-                 {"'build': 3", 4},
+    } cases[] = {{"'build': 'rest'", 0}, {"'threads': 1", 0},       {"'threads': 1.0", 0},
+                 {"'threads': 2", 4},    {"'build': 'samples'", 4}, {"'build': 3", 4},
                  {"'never': 'rest'", 4}};
     for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         char members[128];

@@ -110,6 +110,26 @@ TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
     }
 }
 
+/* The budget ends a slow cell of many bodies early: its times are of other frames. */
+TEST(rows_of_many_bodies_that_ended_early_are_of_other_frames)
+{
+    const mote_summary_row whole = {.bodies = 100, .frames = 60, .frame_range = {1, 60}};
+    mote_summary_row cut = whole;
+    cut.frames = 12;
+    assert_true(mote_summary_by_frames(&whole, &cut) < 0);
+    assert_true(mote_summary_by_frames(&cut, &whole) > 0);
+    cut.frames = 60;
+    assert_int_equal(mote_summary_by_frames(&whole, &cut), 0);
+}
+
+/* A row of every 16th frame is of the same frames as one of all. */
+TEST(rows_of_two_bodies_with_other_strides_are_of_the_same_frames)
+{
+    const mote_summary_row all = {.frames = 160, .frame_range = {1, 160}, .stride = 1};
+    const mote_summary_row some = {.frames = 10, .frame_range = {1, 160}, .stride = 16};
+    assert_int_equal(mote_summary_by_frames(&all, &some), 0);
+}
+
 /* A scene that asks for contacts only: some methods also give a distance, others none. */
 TEST(distances_do_not_count_where_contacts_are_asked_for)
 {
