@@ -76,8 +76,8 @@ static json_t *cells_data(const mote_summary_row *row)
 /* A row of the summary, without members that no table of the page shows. */
 static json_t *row_data(const mote_summary_row *row)
 {
-    static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint",
-                                         "faces"};
+    static const char *const unused[] = {"processes",   "quiet", "counters",
+                                         "fingerprint", "faces", "least_ns"};
     json_t *data = mote_summary_row_json(row);
     for (size_t k = 0; k < sizeof unused / sizeof unused[0]; ++k)
         (void)json_object_del(data, unused[k]);

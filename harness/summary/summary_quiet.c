@@ -67,8 +67,31 @@ static void quiet_group(const mote_summary_row *row, const mote_summary_row *ref
     free(mine);
 }
 
+/* The sum of the times of frames in which a method has all that it needs. */
+static double settled_sum(const double *times, size_t frames)
+{
+    double sum = 0;
+    for (size_t k = frames < MOTE_SETTLED_LEAST ? 0 : MOTE_SETTLED_FROM - 1; k < frames; ++k)
+        sum += times[k];
+    return sum;
+}
+
+/* All replicates are one group. */
+static mote_least least_times(const mote_summary_row *row)
+{
+    mote_least least = {MOTE_NONE, MOTE_NONE};
+    double *times = mote_allocate(row->frames, sizeof *times);
+    if (fastest(row, row->given, last_replicate(row), 1, 0, times) > 0) {
+        least.settled_sum = settled_sum(times, row->frames);
+        least.median = mote_statistics_median(times, row->frames);
+    }
+    free(times);
+    return least;
+}
+
 void mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference)
 {
+    row->least = least_times(row);
     for (uint32_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
         row->quiet.total[k] = row->quiet.ratio[k] = MOTE_NONE;
         if (row->finished >= MOTE_QUIET_REPLICATES)

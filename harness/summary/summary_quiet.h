@@ -4,7 +4,7 @@
 
 #include "harness/summary/summary_row.h"
 
-/* Fills in row->quiet; reference may be NULL. */
+/* Fills in row->quiet and row->least; reference may be NULL. */
 void mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference);
 
 /* How much rows differ from themselves when nothing changed, as a share (0.03: 3 %) that one

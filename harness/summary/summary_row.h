@@ -47,6 +47,18 @@ typedef struct mote_quiet {
     double ratio[MOTE_QUIET_GROUPS]; /* median over frames of (reference's / this) */
 } mote_quiet;
 
+/* The same over all replicates: for each frame the fastest of them. Comparable only between
+   rows of equally many replicates, since the least of more is less. */
+typedef struct mote_least {
+    double median;      /* over frames, nanoseconds */
+    double settled_sum; /* from the MOTE_SETTLED_FROM-th frame measured on, if there are at
+                           least MOTE_SETTLED_LEAST; otherwise over all */
+} mote_least;
+
+/* Before its 50th frame, a method may still build what it needs. */
+#define MOTE_SETTLED_FROM 50
+#define MOTE_SETTLED_LEAST 60
+
 /* Errors are in L; MOTE_NONE if no frame has an answer. */
 typedef struct mote_error_summary {
     double median, p95, p99, max; /* of the absolute error */
@@ -128,6 +140,7 @@ struct mote_summary_row {
     size_t process_count;
     double *sums; /* [process_count][count_count], for processes */
     mote_quiet quiet;
+    mote_least least;
 };
 
 /* Makes a row from its cells [replicates], without the ratios. */

@@ -292,6 +292,56 @@ TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group)
     mote_summary_free(&summary);
 }
 
+/* Replicates need not be equally many in each row; one that crashed or was cut short does not
+   count. */
+TEST(summary_least_times_are_the_fastest_of_each_frame_in_all_replicates)
+{
+    write_times("certified", 1, "2345", 100);
+    write_times("certified", 2, "23x4", 90); /* cut short */
+    write_crash("certified", 3);
+    write_times("certified", 4, "234x5", 100);
+    write_times("fcl-aabb", 1, "2345", 1000);
+    write_crash("brute-force", 1);
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
+    const mote_summary_row *row = find_row(&summary, "certified");
+    about(row->least.median, (201.0 + 301) / 2); /* of 201, 301, 0 and 501 */
+    about(row->least.settled_sum, 201 + 301 + 501);
+    about(find_row(&summary, "fcl-aabb")->least.median, 3501);
+    about(find_row(&summary, "fcl-aabb")->least.settled_sum, 14004);
+    row = find_row(&summary, "brute-force");
+    assert_true(isnan(row->least.median) && isnan(row->least.settled_sum));
+    mote_summary_free(&summary);
+}
+
+/* Frames 1 .. count, of which frame k takes k ns, and 1,000 more for deformation. */
+static void write_ramp(const char *method, int count, const char *parameters)
+{
+    char rows[2048];
+    size_t used = 0;
+    for (int k = 1; k <= count; ++k)
+        used += (size_t)snprintf(rows + used, sizeof rows - used, "%d,1000,0,%d,0.5,0,0,0,7\n",
+                                 k, k);
+    write_cell((stored_cell){
+        .method = method, .rows = rows, .frames = "[1, 60]", .parameters = parameters});
+}
+
+TEST(summary_settled_sum_begins_at_frame_50_where_there_are_60)
+{
+    write_ramp("stream", 60, "{\"positions\": \"given\"}");
+    write_ramp("aabb-tree", 59, "{\"positions\": \"given\"}");
+    write_ramp("certified", 60, "{}");
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
+    const mote_least given = find_row(&summary, "stream")->least;
+    about(given.median, 30.5);
+    about(given.settled_sum, 11 * 55); /* 50 .. 60 */
+    about(find_row(&summary, "aabb-tree:positions=given")->least.settled_sum, 59 * 30);
+    about(find_row(&summary, "certified")->least.median, 1030.5);
+    about(find_row(&summary, "certified")->least.settled_sum, 11 * 1055);
+    mote_summary_free(&summary);
+}
+
 /* Frames that only one of the two has, and times of 0, are in no ratio. */
 TEST(summary_ratio_is_of_common_frames_with_a_time)
 {
