@@ -158,13 +158,13 @@ verdicts: build
 
 # Method auto beside the two that it chooses from, in every built-in scenario (docs/architecture.md).
 .PHONY: auto
-auto: build
+auto: build deps-test
 	@harness/scripts/auto.sh $(MOTE) $(PROFILE) $(call out,auto)
 
 # Method stream's time to that of the box tree and of FCL, told positions alone; also compiled for AVX2 only.
 AVX2 ?= yes
 .PHONY: ratios
-ratios: build $(if $(filter yes,$(AVX2)),build-avx2)
+ratios: build deps-test $(if $(filter yes,$(AVX2)),build-avx2)
 	@harness/scripts/ratios.sh $(MOTE) '$(if $(filter yes,$(AVX2)),build-avx2/mote)' $(call out,ratios)
 
 .PHONY: build-avx2
@@ -200,7 +200,7 @@ readers: program-readers deps-readers
 characters: program-characters deps-readers
 	@$(BUILD)/tests/characters $(call quoted,$(MODELS))
 
-character-speed: build
+character-speed: build deps-test
 	@harness/scripts/character_speed.sh $(MOTE) $(PROFILE) $(call out,character-speed)
 
 tune: build

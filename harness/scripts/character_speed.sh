@@ -34,40 +34,7 @@ for scenario in ${SCENARIOS:-$scenarios}; do
         --method 'fcl-aabb:seed=previous,queue=2|64,build=rest|samples'
 done
 
-# A key of a row stands on a line of its own, those of its numbers one level deeper.
-"$mote" summarize "$out" --format json >/dev/null # writes summary.json; no pipe, which would hide a failure
-awk '
-    function value(line) { sub(/^[^:]*: */, "", line); gsub(/[",]/, "", line); return line }
-    function kind(label) { return label ~ /^fcl/ ? "fcl" : label ~ /^aabb/ ? "tree" : "own" }
-    function ratio(what, k, times) {
-        if (!((k, what) in time))
-            return "failed"
-        times = time[k, what] / time[k, "own"]
-        return sprintf(times < 100 ? "%.1f" : "%.0f", times)
-    }
-    /^   "scenario":/ { scenario = value($0); if (!(scenario in seen)) order[++count] = scenario; seen[scenario] = 1 }
-    /^   "label":/ { own = kind(value($0)) }
-    /^   "[a-z_]*": \{/ { within = $1 }
-    /^    "median":/ && within == "\"total_ns\":" { median = value($0) }
-    /^    "p95":/ && within == "\"total_ns\":" { p95 = value($0) }
-    /^    "max":/ && within == "\"error\":" && own == "own" { error[scenario] = value($0) }
-    /^   "heap_bytes_per_vertex":/ && own == "own" { bytes[scenario] = value($0) }
-    /^   "counters":/ && median > 0 {
-        if (!((scenario, own) in time) || median < time[scenario, own]) {
-            time[scenario, own] = median
-            slow[scenario, own] = p95
-        }
-        median = 0
-    }
-    END {
-        print "| scenario | certified, median | p95 | aabb-tree / certified | its p95 | best FCL / certified | its p95 | bytes a vertex | largest error over L |"
-        print "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
-        for (i = 1; i <= count; ++i) {
-            k = order[i]
-            printf "| %s | %.1f us | %.1f us | %s | %.0f us | %s | %.0f us | %.0f | %.1e |\n", k,
-                time[k, "own"] / 1000, slow[k, "own"] / 1000, ratio("tree", k), slow[k, "tree"] / 1000,
-                ratio("fcl", k), slow[k, "fcl"] / 1000, bytes[k], error[k]
-        }
-    }' "$out/summary.json" >"$out/characters.md"
+"$mote" summarize "$out" --format csv >/dev/null # writes summary.csv, too
+"$(dirname "$0")/character_speed.py" "$out" || { failed=$?; [ $failed = 5 ] || exit $failed; }
 cat "$out/characters.md"
 exit "$failed"

@@ -3,10 +3,11 @@
 # fastest configuration of FCL, where all that is known is positions: letters W of 11,920 triangles with their vertices
 # in the mesh's order, as stream reads them (leaf), and in random order; the same with AVX2 only, where MOTE_AVX2, a
 # program compiled so, is not empty; of 100,000 and 1,000,000 triangles; cloths and banners of 12,000 and 100,000; twist, fast-100
-# and the three scenarios in which stream is least ahead. The methods take turns within a run; of each frame the least
-# time of all replicates counts, and of these the median (least.awk). Prints a line a case, and writes the same to
-# OUT/ratios.txt; ends with 5 where a case has no line. FCL is asked in a tenth of the frames. ONLY: a pattern of cases'
-# names. REPLICATES: of each (5).
+# and the three scenarios in which stream is least ahead. All methods of a case are given all positions at no charge,
+# take turns within one run, are asked in the same frames and run equally often: 5 times, or 3 where FCL takes 130 ms
+# a frame. Of each frame the least time of all replicates counts, and of these the median (least_ns of the summary).
+# Prints a line a case, and writes the same to OUT/ratios.txt (ratios.py); ends with 5 where a method failed. ONLY: a
+# pattern of cases' names. REPLICATES: of each, at most.
 set -eu
 ours=$1
 avx2=$2
@@ -37,29 +38,19 @@ sheet() {
     echo "$data/$2/$1.json"
 }
 
-# compare CASE PROGRAM SCENARIO: a run of its own in OUT/CASE, and a line of the table.
+# compare CASE PROGRAM SCENARIO: a run of its own in OUT/CASE, for a line of the table.
+cases=
 compare() {
-    case_name=$1
     out=$top/$1
     mote=$2
     replicates=${REPLICATES:-5}
-    case $1 in 1m-*) [ "$replicates" -lt 3 ] || replicates=3 ;; esac
-    measure "$3" --stride 1 --replicates "$replicates" --method stream --method aabb-tree:positions=given
-    measure "$3" --stride 10 --replicates 2 --method 'fcl-aabb:seed=previous,queue=2|64'
-    find "$out/cells" -name '*.csv' | sort | sed 's/\(.*\)[.]csv$/\1.json\n&/' | tr '\n' '\0' |
-        xargs -0 awk -f "$(dirname "$0")/least.awk" | awk -F '\t' -v name="$case_name" '
-        !($2 in best) || $5 < best[$2] { best[$2] = $5 }
-        END {
-            if (!("stream" in best) || !("aabb-tree" in best)) exit 1
-            printf "%-16s %11.2f %11.2f %11.2f %9.2f %9.1f\n", name, best["stream"] / 1000,
-                best["aabb-tree"] / 1000, best["fcl-aabb"] / 1000, best["aabb-tree"] / best["stream"],
-                best["fcl-aabb"] / best["stream"]
-        }' | tee -a "$top/ratios.txt"
-    tail -n 1 "$top/ratios.txt" | grep -q -e "^$case_name " || failed=5
+    case $1 in 1m-* | cloth-100000) [ "$replicates" -lt 3 ] || replicates=3 ;; esac
+    measure "$3" --stride 1 --replicates "$replicates" --method stream --method aabb-tree:positions=given \
+        --method 'fcl-aabb:seed=previous,queue=2|64,positions=given'
+    "$mote" summarize "$out" --format csv >/dev/null # writes summary.csv, too
+    cases="$cases $1"
 }
 
-printf '%-16s %11s %11s %11s %9s %9s\n' 'us a frame' stream aabb-tree fcl-aabb 'to tree' 'to FCL' |
-    tee "$top/ratios.txt"
 for order in letter leaf random; do
     wanted 12k-$order || continue
     compare 12k-$order "$ours" "$(letters 11920 $order 1984 1)"
@@ -79,8 +70,11 @@ done
 for name in twist fast-100 jump still fast-5; do
     ! wanted "$name" || compare "$name" "$ours" "$name"
 done
-[ "$(wc -l <"$top/ratios.txt")" -gt 1 ] || {
+[ -n "$cases" ] || {
     echo "ratios.sh: ONLY=${ONLY-}: no case has such a name" >&2
     exit 2
 }
-exit $failed
+# shellcheck disable=SC2086 # names
+"$(dirname "$0")/ratios.py" "$top" $cases || { failed=$?; [ $failed = 5 ] || exit $failed; }
+cat "$top/ratios.txt"
+exit "$failed"

@@ -13,7 +13,7 @@ cat >mote <<'MOTE'
 for argument in "$@"; do last=$argument; done
 case $1 in
 run) ;;
-summarize) mkdir -p "$2" && echo '{}' >"$2/summary.json" && echo "a table" && exit "$ENDS" ;;
+summarize) mkdir -p "$2" && echo scene,frames,replicates >"$2/summary.csv" && echo "a table" && exit "$ENDS" ;;
 table) : >"$last.dat" && echo "a table" && exit "$ENDS" ;;
 esac
 MOTE
