@@ -330,6 +330,7 @@ void mote_race_free(mote_race *race)
 {
     for (size_t i = 0; i < race->count; ++i) {
         free(race->rows[i].name);
+        free(race->rows[i].uncounted);
         free(race->rows[i].what);
     }
     free(race->rows);

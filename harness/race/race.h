@@ -80,6 +80,7 @@ typedef struct mote_race_row {
     double worst;                         /* largest difference of answers, as a share of L */
     uint32_t worst_frame;                 /* frame of that difference */
     double instructions[MOTE_RACE_SIDES]; /* per frame; MOTE_NONE: not counted */
+    char *uncounted;                      /* why there is no such count; NULL: not asked for */
     char *what;                           /* what explains the verdict */
 } mote_race_row;
 

@@ -4,6 +4,7 @@
 #include "harness/process/spawn.h"
 #include "harness/run/own_words.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,32 +15,53 @@
 /* Instructions are equal within this share: a few branches depend on addresses. */
 #define INSTRUCTIONS_SHARE 0.002
 
-/* Instructions per frame of one program; MOTE_NONE if they cannot be counted. */
-static double count_of(const char *program, const mote_race_row *row, const char *folder)
+/* The number in FOLDER/instructions.json. */
+static mote_status read_count(const char *folder, double *per_frame)
 {
-    const uint32_t most = row->cell->first + INSTRUCTION_FRAMES - 1;
-    const uint32_t last = row->cell->first + row->frames - 1;
-    char *frames = mote_format("%u-%u", row->cell->first, last < most ? last : most);
+    json_t *counted = NULL;
+    mote_status status = mote_record_read_json(folder, "instructions.json", &counted);
+    const json_t *rows = json_object_get(counted, "rows");
+    const json_t *value = json_object_get(json_array_get(rows, 0), "per_frame");
+    if (status == MOTE_OK && json_is_number(value))
+        *per_frame = json_number_value(value);
+    else if (status == MOTE_OK)
+        status = mote_fail(MOTE_EINVAL, "%s/instructions.json: has no count", folder);
+    json_decref(counted);
+    return status;
+}
+
+/* Counts the instructions per frame of one program. The last frame is that in which the last
+   question ends. */
+static mote_status count_one(const char *program, const mote_race_row *row, const char *folder,
+                             double *per_frame)
+{
+    const uint32_t asked = row->frames < INSTRUCTION_FRAMES ? row->frames : INSTRUCTION_FRAMES;
+    char *frames =
+        mote_format("%u-%u", row->cell->first, row->cell->first + asked - 1 + row->scene.step);
     enum { WORDS = 8 };
     const char *const words[WORDS] = {"instructions", row->cell->scenario, "--frames", frames,
                                       "--method",     row->cell->method,   "--out",    folder};
     const char *argv[1 + WORDS + MOTE_OWN_WORDS_MAX + 1] = {program};
     argv[mote_own_words_add(words, WORDS, argv, 1)] = NULL;
-    json_t *counted = NULL;
-    double per_frame = MOTE_NONE;
-    if (mote_spawn_quiet(argv, NULL) == MOTE_OK &&
-        mote_record_read_json(folder, "instructions.json", &counted) == MOTE_OK) {
-        const json_t *rows = json_object_get(counted, "rows");
-        const json_t *value = json_object_get(json_array_get(rows, 0), "per_frame");
-        if (json_is_number(value))
-            per_frame = json_number_value(value);
-    }
-    json_decref(counted);
+    mote_status status = mote_spawn_quiet(argv, NULL);
+    if (status == MOTE_OK)
+        status = read_count(folder, per_frame);
     free(frames);
     char *file = mote_format("%s/instructions.json", folder);
     (void)unlink(file);
     free(file);
-    return per_frame;
+    return status;
+}
+
+/* Counts those of both programs, or keeps why that cannot be. */
+static void count_row(const mote_race_options *options, mote_race_row *row, const char *folder)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
+        const char *program = options->builds[side]->path[0];
+        if (count_one(program, row, folder, &row->instructions[side]) != MOTE_OK &&
+            !row->uncounted)
+            row->uncounted = mote_format("%s: %s", side ? "B" : "A", mote_error_text());
+    }
 }
 
 static const char *temporary(void)
@@ -51,16 +73,20 @@ static const char *temporary(void)
 void mote_race_count_instructions(const mote_race_options *options, mote_race *race)
 {
     char *folder = mote_format("%s/mote-race-XXXXXX", temporary());
-    if (mkdtemp(folder)) {
-        for (size_t i = 0; i < race->count; ++i) {
-            mote_race_row *row = &race->rows[i];
-            const bool changed =
-                row->verdict == MOTE_VERDICT_FASTER || row->verdict == MOTE_VERDICT_SLOWER;
-            for (int side = 0; changed && side < MOTE_RACE_SIDES; ++side)
-                row->instructions[side] = count_of(options->builds[side]->path[0], row, folder);
-        }
-        (void)rmdir(folder);
+    const bool made = mkdtemp(folder) != NULL;
+    const int error = errno;
+    for (size_t i = 0; i < race->count; ++i) {
+        mote_race_row *row = &race->rows[i];
+        if (row->verdict != MOTE_VERDICT_FASTER && row->verdict != MOTE_VERDICT_SLOWER)
+            continue;
+        if (made)
+            count_row(options, row, folder);
+        else
+            row->uncounted = mote_format("no folder in %s: %s; TMPDIR may name another",
+                                         temporary(), strerror(error));
     }
+    if (made)
+        (void)rmdir(folder);
     free(folder);
 }
 
@@ -106,6 +132,8 @@ static void say_cause(mote_text *text, const mote_race_row *row)
         mote_text_add(text, "%s%s", separator,
                       row->counted ? "the time changed with the counts"
                                    : "counts are the same: time for each of them changed");
+    if (row->uncounted)
+        mote_text_add(text, "; instructions are not known: %s", row->uncounted);
 }
 
 void mote_race_explain(mote_race *race)

@@ -36,6 +36,7 @@ static void free_rows(mote_race_row *rows, size_t count)
 {
     for (size_t i = 0; i < count; ++i) {
         free(rows[i].name);
+        free(rows[i].uncounted);
         free(rows[i].what);
     }
 }
@@ -138,12 +139,17 @@ static void put_program(const char *name, const char *text)
     assert_int_equal(chmod(name, 0755), 0);
 }
 
+/* What the last row of counted_by says of its counts; empty if it has them. */
+static char why_not[1200];
+
 /* Instructions per frame of a row whose program, called as `mote instructions ... --out
-   FOLDER`, is this script. */
-static double counted_by(const char *script, uint32_t frames, mote_verdict verdict)
+   FOLDER`, is this script; step: of a scenario that asks for impacts, else 0. */
+static double counted_within(const char *script, uint32_t frames, uint32_t step,
+                             mote_verdict verdict)
 {
     static char path[] = "./counts";
     mote_race_row row = make_row(verdict, 2);
+    row.scene.step = step;
     mote_race race = race_of(&row, 1);
     const mote_race_builds builds = {.path = {path}, .count = 1};
     const mote_race_options options = {.builds = {&builds, &builds}};
@@ -153,8 +159,17 @@ static double counted_by(const char *script, uint32_t frames, mote_verdict verdi
     const double counted = row.instructions[MOTE_RACE_B];
     assert_true(row.instructions[MOTE_RACE_A] == counted ||
                 (isnan(row.instructions[MOTE_RACE_A]) && isnan(counted)));
+    (void)snprintf(why_not, sizeof why_not, "%s", row.uncounted ? row.uncounted : "");
+    mote_race_explain(&race);
+    assert_true(!row.uncounted || strstr(row.what, "; instructions are not known: "));
+    assert_true(!row.uncounted || strstr(row.what, row.uncounted));
     free_rows(&row, 1);
     return counted;
+}
+
+static double counted_by(const char *script, uint32_t frames, mote_verdict verdict)
+{
+    return counted_within(script, frames, 0, verdict);
 }
 
 #define WRITES(json) "#!/bin/sh\necho '" json "' > \"$8/instructions.json\"\n"
@@ -165,15 +180,17 @@ TEST(instructions_are_counted_by_each_program)
     static const struct {
         const char *script;
         double counted;
+        const char *why;
     } rows[] = {
-        {GOOD, 1234},
+        {GOOD, 1234, ""},
         {"#!/bin/sh\n[ \"$1 $2 $4 $6\" = 'instructions ww 11-30 certified' ] || exit 1\n" GOOD,
-         1234},
-        {GOOD "exit 3\n", NAN},
-        {"#!/bin/sh\n", NAN},
-        {WRITES("{"), NAN},
-        {WRITES("{\"rows\": []}"), NAN},
-        {WRITES("{\"rows\": [{\"per_frame\": \"many\"}]}"), NAN},
+         1234, ""},
+        {GOOD "echo no valgrind >&2; exit 3\n", NAN,
+         "A: ./counts: ended with status 3: no valgrind"},
+        {"#!/bin/sh\n", NAN, "instructions.json: No such file"},
+        {WRITES("{"), NAN, "instructions.json"},
+        {WRITES("{\"rows\": []}"), NAN, "instructions.json: has no count"},
+        {WRITES("{\"rows\": [{\"per_frame\": \"many\"}]}"), NAN, "has no count"},
     };
     assert_int_equal(mkdir("temporary", 0755), 0);
     assert_int_equal(setenv("TMPDIR", "temporary", 1), 0);
@@ -181,15 +198,26 @@ TEST(instructions_are_counted_by_each_program)
         test_row("%s", rows[i].script);
         const double counted = counted_by(rows[i].script, 40, MOTE_VERDICT_SLOWER);
         assert_true(counted == rows[i].counted || (isnan(counted) && isnan(rows[i].counted)));
+        if (!strstr(why_not, rows[i].why) || (!rows[i].why[0] && why_not[0]))
+            fail_msg("not \"%s\" but \"%s\"", rows[i].why, why_not);
         assert_int_equal(folder_count("temporary", ""), 0);
     }
     /* Of a short row every frame; of a row that did not change nothing. */
     assert_true(counted_by("#!/bin/sh\n[ \"$4\" = 11-13 ] || exit 1\n" GOOD, 3,
                            MOTE_VERDICT_FASTER) == 1234);
     assert_true(isnan(counted_by(GOOD, 40, MOTE_VERDICT_SAME)));
+    assert_string_equal(why_not, "");
+    /* The last question ends a step after the frame in which it begins. */
+    assert_true(counted_within("#!/bin/sh\n[ \"$4\" = 11-60 ] || exit 1\n" GOOD, 40, 30,
+                               MOTE_VERDICT_SLOWER) == 1234);
+    assert_true(counted_within("#!/bin/sh\n[ \"$4\" = 11-43 ] || exit 1\n" GOOD, 3, 30,
+                               MOTE_VERDICT_SLOWER) == 1234);
     /* Where there is no room for a temporary folder, nothing is known. */
     assert_int_equal(setenv("TMPDIR", "nowhere", 1), 0);
     assert_true(isnan(counted_by(GOOD, 40, MOTE_VERDICT_SLOWER)));
+    assert_string_equal(why_not,
+                        "no folder in nowhere: No such file or directory; TMPDIR may name "
+                        "another");
     static const char *const usual[] = {"", NULL};
     for (size_t i = 0; i < ROWS_OF(usual); ++i) {
         (void)(usual[i] ? setenv("TMPDIR", usual[i], 1) : unsetenv("TMPDIR"));
