@@ -54,15 +54,24 @@ void mote_bout_stop(mote_bout *bout)
         mote_racer_stop(&bout->racer[side]);
 }
 
-/* Records why a side cannot continue. A request to stop is passed on. */
+/* Records why a side cannot continue: it failed. A request to stop is passed on. */
 static mote_status note(mote_status status, mote_race_side *side)
 {
     if (status == MOTE_OK || mote_child_stop_asked())
         return status;
-    side->refused = status == MOTE_EUNSUPPORTED;
-    side->failed = !side->refused;
+    side->failed = true;
     (void)snprintf(side->reason, sizeof side->reason, "%s", mote_error_text());
     return MOTE_OK;
+}
+
+/* The same of opening a cell, which a side may refuse. Of what it has opened, "no" is a
+   failure. */
+static mote_status note_opening(mote_status status, mote_race_side *side)
+{
+    const mote_status noted = note(status, side);
+    side->refused = side->failed && status == MOTE_EUNSUPPORTED;
+    side->failed = side->failed && !side->refused;
+    return noted;
 }
 
 static bool is_over(const mote_bout_result *result)
@@ -331,8 +340,9 @@ static mote_status compare_answers(contest *c, uint32_t offset, uint32_t count)
     return status;
 }
 
-/* Both sides' turns at a block. The first side is drawn at random for every other block and
-   reversed in between: ABBA or BAAB. */
+/* Both sides' turns at a block, also where the first of them fails: the other may fail as well.
+   The first side is drawn at random for every other block and reversed in between: ABBA or
+   BAAB. */
 static mote_status run_turns(contest *c, uint32_t pass, uint32_t offset, bool counted)
 {
     const uint32_t left = c->frames - offset;
@@ -343,10 +353,12 @@ static mote_status run_turns(contest *c, uint32_t pass, uint32_t offset, bool co
         const int side = k == 0 ? c->leader : 1 - c->leader;
         const mote_status status =
             note(run_block(c, side, pass, offset, count, counted), &c->result->side[side]);
-        if (status != MOTE_OK || is_over(c->result))
+        if (status != MOTE_OK)
             return status;
     }
-    return c->hash[0] == c->hash[1] ? MOTE_OK : compare_answers(c, offset, count);
+    if (is_over(c->result) || c->hash[0] == c->hash[1])
+        return MOTE_OK;
+    return compare_answers(c, offset, count);
 }
 
 static mote_status run_pass(contest *c, uint32_t pass, bool counted)
@@ -414,10 +426,10 @@ static mote_status open_cell(contest *c, const mote_race_cell *cell)
     mote_race_side *side = c->result->side;
     mote_status status = MOTE_OK;
     for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k)
-        status = note(ask_to_open(c, cell, k), &side[k]);
+        status = note_opening(ask_to_open(c, cell, k), &side[k]);
     for (int k = 0; status == MOTE_OK && k < MOTE_RACE_SIDES; ++k) {
         if (!side[k].failed)
-            status = note(hear_opened(c, cell, k, &scene[k]), &side[k]);
+            status = note_opening(hear_opened(c, cell, k, &scene[k]), &side[k]);
     }
     c->result->same_scene =
         is_over(c->result) || is_same_scene(&scene[MOTE_RACE_A], &scene[MOTE_RACE_B]);

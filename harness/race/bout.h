@@ -34,7 +34,8 @@ typedef struct mote_race_scene {
 
 /* Whether and why one side did not finish a cell. */
 typedef struct mote_race_side {
-    bool refused, failed; /* it cannot measure this cell; it crashed or took too long */
+    bool refused, failed; /* it did not open the cell; it crashed, took too long or could not
+                             answer about a frame */
     char reason[400];
 } mote_race_side;
 
@@ -72,8 +73,8 @@ typedef struct mote_bout {
    failure. */
 mote_status mote_bout_start(const mote_bout_options *options, mote_bout *bout);
 
-/* Measures a cell by both sides in turn. A failure of one side is part of the result; it ends
-   the bout. MOTE_EIO if a signal asked to stop. */
+/* Measures a cell by both sides in turn. A failure of a side is part of the result; it ends the
+   bout after the other side's turn at the same frames. MOTE_EIO if a signal asked to stop. */
 mote_status mote_bout_run(mote_bout *bout, const mote_race_cell *cell,
                           mote_bout_result *result);
 void mote_bout_stop(mote_bout *bout);

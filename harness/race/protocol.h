@@ -23,6 +23,8 @@
                                   an impact: from and to, as parts of the question's time; of
                                   many bodies: a sum over the distances of near pairs, in L
        any request that fails     no REASON
+                                  to `cell`: the program cannot measure it, or does not have
+                                  it; to another request: the method failed
 
    What follows LAST and CONTACT was added later: programs that do not know it leave it out, or
    do not read it. race-child ends at the end of its input. A change of this format raises

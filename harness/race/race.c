@@ -80,18 +80,19 @@ static void choose_builds(event *e, mote_bout_options *bout)
 /* Sets why a cell is not measured, from its bout; false if it was measured. */
 static bool rule_out(mote_race_row *row, const mote_bout_result *result)
 {
+    size_t used = 0;
     for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
         const mote_race_side *s = &result->side[side];
         if (!s->refused && !s->failed)
             continue;
-        row->state = s->failed ? MOTE_RACE_FAILED : MOTE_RACE_LEFT_OUT;
+        row->state =
+            s->failed || row->state == MOTE_RACE_FAILED ? MOTE_RACE_FAILED : MOTE_RACE_LEFT_OUT;
         row->missing[side] = true;
-        (void)snprintf(row->reason, sizeof row->reason, "%s: %.399s", side ? "B" : "A",
-                       s->reason);
-        return true;
+        used += (size_t)snprintf(row->reason + used, sizeof row->reason - used, "%s%s: %.399s",
+                                 used ? "; " : "", side ? "B" : "A", s->reason);
     }
-    if (result->same_scene)
-        return false;
+    if (used > 0 || result->same_scene)
+        return used > 0;
     row->state = MOTE_RACE_LEFT_OUT;
     (void)snprintf(row->reason, sizeof row->reason,
                    "the scenario is not the same in both programs");
@@ -222,6 +223,15 @@ static mote_status run_pairs(event *e)
     return MOTE_OK;
 }
 
+bool mote_race_is_worse(const mote_race_options *options, const mote_race_row *row)
+{
+    if (row->state == MOTE_RACE_FAILED)
+        return row->missing[MOTE_RACE_B] && !row->missing[MOTE_RACE_A];
+    return row->state == MOTE_RACE_MEASURED &&
+           (row->verdict == MOTE_VERDICT_SLOWER ||
+            (row->worst > MOTE_RACE_EXACT && !options->allow_changes));
+}
+
 /* Judges a row by its counts, answers and time together. */
 static void judge(mote_race_row *row, const mote_race_options *options, mote_race *race)
 {
@@ -229,15 +239,11 @@ static void judge(mote_race_row *row, const mote_race_options *options, mote_rac
         const mote_race_count *count = &row->counts[i];
         row->counted = row->counted || fabs(count->sum[0] - count->sum[1]) > 0.5;
     }
-    if (row->state != MOTE_RACE_MEASURED) {
-        const bool lost = row->missing[MOTE_RACE_B];
-        race->worse = race->worse || (lost && row->state == MOTE_RACE_FAILED);
-        race->undecided = race->undecided || lost;
-        return;
-    }
-    race->worse = race->worse || row->verdict == MOTE_VERDICT_SLOWER ||
-                  (row->worst > MOTE_RACE_EXACT && !options->allow_changes);
-    race->undecided = race->undecided || row->verdict == MOTE_VERDICT_UNDECIDED;
+    const bool lost = row->missing[MOTE_RACE_B] && !row->missing[MOTE_RACE_A];
+    race->worse = race->worse || mote_race_is_worse(options, row);
+    race->undecided =
+        race->undecided || lost ||
+        (row->state == MOTE_RACE_MEASURED && row->verdict == MOTE_VERDICT_UNDECIDED);
 }
 
 static mote_status check_rows(const mote_race *race)

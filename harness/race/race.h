@@ -50,7 +50,7 @@ typedef struct mote_race_options {
 typedef enum mote_race_state {
     MOTE_RACE_MEASURED,
     MOTE_RACE_LEFT_OUT, /* missing on one side, or the scenarios differ */
-    MOTE_RACE_FAILED    /* a side crashed or took too long */
+    MOTE_RACE_FAILED    /* a side crashed, took too long or could not answer about a frame */
 } mote_race_state;
 extern const char *const mote_race_state_names[];
 
@@ -89,12 +89,16 @@ typedef struct mote_race {
     size_t count;
     size_t pairs;
     double seconds;
-    bool worse, undecided; /* slower, other answers, or missing; undecided or out of time */
+    bool worse, undecided; /* a row is worse; undecided, out of time, or missing in B alone */
 } mote_race;
 
 /* The pairs of processes at the look after one at so many: half as many again, MOTE_PAIRED_MAX
    at most. The first look comes as soon as there is an interval. */
 size_t mote_race_next_look(size_t pairs);
+
+/* Whether a row makes the race worse: B is slower, answers otherwise, or fails where A does
+   not. */
+bool mote_race_is_worse(const mote_race_options *options, const mote_race_row *row);
 
 /* What a row was asked (mote_history_asked); "" if it was not measured. The caller frees it. */
 char *mote_race_asked(const mote_race_row *row);

@@ -12,13 +12,6 @@ static const char *verdict_of(const mote_race *race)
     return race->worse ? "worse" : race->undecided ? "undecided" : "same-or-better";
 }
 
-static bool is_worse(const mote_race_options *options, const mote_race_row *row)
-{
-    return row->verdict == MOTE_VERDICT_SLOWER ||
-           (row->worst > MOTE_RACE_EXACT && !options->allow_changes) ||
-           (row->state == MOTE_RACE_FAILED && row->missing[MOTE_RACE_B]);
-}
-
 static void print_row(const mote_race_options *options, const mote_race_row *row, int width,
                       FILE *out)
 {
@@ -33,8 +26,23 @@ static void print_row(const mote_race_options *options, const mote_race_row *row
     else
         (void)fprintf(out, "%6.3f %-24s %2zu pairs %9s", row->ratio, "no interval undecided",
                       row->pairs, "");
-    (void)fprintf(out, " %s%s%s\n", is_worse(options, row) ? "WORSE" : "", separator,
+    (void)fprintf(out, " %s%s%s\n", mote_race_is_worse(options, row) ? "WORSE" : "", separator,
                   row->what ? row->what : "");
+}
+
+/* What may decide a race that is undecided: where an interval is too wide, and nowhere else. */
+static const char *advice(const mote_race *race)
+{
+    const char *says = "";
+    for (size_t i = 0; i < race->count; ++i) {
+        const mote_race_row *row = &race->rows[i];
+        if (row->state != MOTE_RACE_MEASURED || row->verdict != MOTE_VERDICT_UNDECIDED)
+            continue;
+        if (row->looks < MOTE_RACE_LOOKS)
+            return ": more time (--budget) may decide";
+        says = ": a quieter machine, or more builds of both sides, may decide";
+    }
+    return says;
 }
 
 void mote_race_print(const mote_race_options *options, const mote_race *race, FILE *out)
@@ -50,11 +58,12 @@ void mote_race_print(const mote_race_options *options, const mote_race *race, FI
                   100 * (1 - MOTE_RACE_ALPHA), 100 * options->real);
     for (size_t i = 0; i < race->count; ++i)
         print_row(options, &race->rows[i], width, out);
-    (void)fprintf(out, "%s after %zu pairs of processes and %.0f s\n",
+    (void)fprintf(out, "%s%s after %zu pairs of processes and %.0f s\n",
                   race->worse       ? "worse"
-                  : race->undecided ? "undecided: more time (--budget) may decide"
+                  : race->undecided ? "undecided"
                                     : "same or better",
-                  race->pairs, race->seconds);
+                  !race->worse && race->undecided ? advice(race) : "", race->pairs,
+                  race->seconds);
 }
 
 static json_t *counts_json(const mote_race_row *row)
@@ -78,8 +87,8 @@ static json_t *row_json(const mote_race_options *options, const mote_race_row *r
         (int)row->frames, "status", mote_race_state_names[row->state], "ratio",
         mote_json_number(row->ratio), "ci_low", mote_json_number(row->interval.low), "ci_high",
         mote_json_number(row->interval.high), "verdict", mote_verdict_names[row->verdict],
-        "worse", is_worse(options, row), "pairs", (int)row->pairs, "looks", (int)row->looks,
-        "blocks", (json_int_t)row->blocks, "seconds", row->seconds, "spread",
+        "worse", mote_race_is_worse(options, row), "pairs", (int)row->pairs, "looks",
+        (int)row->looks, "blocks", (json_int_t)row->blocks, "seconds", row->seconds, "spread",
         mote_json_number(row->spread), "total_ns", mote_json_number(row->total_ns[0]),
         mote_json_number(row->total_ns[1]), "counts", counts_json(row), "instructions",
         mote_json_number(row->instructions[0]), mote_json_number(row->instructions[1]),

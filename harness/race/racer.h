@@ -33,7 +33,7 @@ mote_status mote_racer_send(mote_racer *racer, const char *format, ...) MOTE_PRI
 
 /* Waits for the answer to a request: *answer is the text after "ok" and its tab, is valid until
    the next request, and may be modified. MOTE_EUNSUPPORTED with the racer's reason if it
-   refuses; MOTE_EIO if it has ended, took too long, or its answer cannot be read (it is then
+   says no; MOTE_EIO if it has ended, took too long, or its answer cannot be read (it is then
    stopped), and if a signal asked this process to stop (harness/process/child.h). */
 mote_status mote_racer_hear(mote_racer *racer, char **answer);
 

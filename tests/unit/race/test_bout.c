@@ -50,11 +50,13 @@ static int put_good(void)
 
 TEST_EACH(put_good, NULL);
 
+static uint64_t fight_seed = 5;
+
 /* Runs a bout of two programs in this folder, over a cell of each scenario [count]. */
 static mote_status fight_over(const char *a, const char *b, const char *const *scenarios,
                               size_t count, mote_bout_result *results)
 {
-    mote_random random = {5};
+    mote_random random = {fight_seed};
     mote_bout bout;
     const mote_bout_options options = {
         .program = {a, b}, .core = -1, .timeout = 20, .check_scene = true, .random = &random};
@@ -73,6 +75,16 @@ static mote_status fight(const char *a, const char *b, mote_bout_result *result)
 {
     static const char *const scenario[] = {"s"};
     return fight_over(a, b, scenario, 1, result);
+}
+
+/* The same with other random orders. */
+static mote_status fight_from(uint64_t seed, const char *a, const char *b,
+                              mote_bout_result *result)
+{
+    fight_seed = seed;
+    const mote_status status = fight(a, b, result);
+    fight_seed = 5;
+    return status;
 }
 
 /* What a racer says, by where it says it, and what the bout says then. */
@@ -95,7 +107,7 @@ static const struct {
     {{.cell = "kill -SEGV $$"}, "ended by signal 11", false},
     {{.greet = "exec 0<&-; say 'mote-race\\t1'; exit 4"}, "ended with status 4", false},
     {{.cell = "printf '%1048600d' 1; exec sleep 9"}, unread, false},
-    {{.run = "say 'no\\tnot now'"}, "not now", true},
+    {{.run = "say 'no\\tnot now'"}, "not now", false},
     {{.run = "[ $n -gt 9 ] && exit 6; say 'ok\\t1\\t-\\t" TIMES "'"}, "status 6", false},
     {{.run = "say 'ok\\t1'"}, unread, false},
     {{.run = "say 'ok\\t1\\t-'"}, unread, false},
@@ -110,7 +122,7 @@ static const struct {
     {{.run = "say 'ok\\t1\\t" MANY(1) MANY(2) MANY(3) MANY(4) MANY(5) "z=1\\t5,5'"},
      unread,
      false},
-    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'no\\tforgotten'"}, "forgotten", true},
+    {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'no\\tforgotten'"}, "forgotten", false},
     {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5:0'"}, unread, false},
     {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\tnear:0,0.5:0'"}, unread, false},
     {{.run = "say 'ok\\t2\\t-\\t5,5'", .answers = "say 'ok\\t0.5,0.5:0'"}, unread, false},
@@ -147,6 +159,21 @@ TEST(an_answer_that_is_wrong_ends_the_bout_and_names_its_side)
             assert_true(bad->refused == wrong_answers[i].refused &&
                         bad->failed == !wrong_answers[i].refused);
             assert_false(good->refused || good->failed);
+        }
+    }
+}
+
+/* Whoever begins: what both cannot answer, neither of them lost. */
+TEST(a_frame_at_which_both_sides_fail_is_a_failure_of_both)
+{
+    put_racer("bad", (script){.run = "say 'no\\tframe 1: the method failed'"});
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+        mote_bout_result result;
+        test_row("seed %d", (int)seed);
+        assert_int_equal(fight_from(seed, "./bad", "./bad", &result), MOTE_OK);
+        for (int side = MOTE_RACE_A; side <= MOTE_RACE_B; ++side) {
+            assert_true(result.side[side].failed && !result.side[side].refused);
+            assert_string_equal(result.side[side].reason, "frame 1: the method failed");
         }
     }
 }
@@ -454,6 +481,41 @@ TEST(a_race_ends_with_its_budget)
     assert_non_null(strstr(said, "\"spread\": null"));
     assert_non_null(strstr(said, "\"ci_low\": null"));
     mote_expect(3, "no interval undecided", "race a b s --method certified --budget 0.0001");
+    assert_non_null(strstr(said, "undecided: more time (--budget) may decide after 1 pairs"));
+}
+
+/* A method that begins to fail is worse; more time would decide nothing. */
+TEST(a_side_that_fails_in_a_frame_is_worse_and_one_without_the_method_is_left_out)
+{
+    static const script fails = {.cell = "say 'ok\\t0\\t1\\t1'",
+                                 .run = "say 'no\\tframe 7: the method failed'"},
+                        works = {.cell = "say 'ok\\t0\\t1\\t1'",
+                                 .run = "say 'ok\\t1\\t-\\t100000000'"},
+                        lacks = {.cell = "case $line in *certified*) say 'ok\\t0\\t1\\t1' ;; "
+                                         "*) say 'no\\tlost' ;; esac",
+                                 .run = "say 'ok\\t1\\t-\\t100000000'"};
+    static const struct {
+        const script *a, *b;
+        int status;
+        const char *row, *last;
+    } rows[] = {
+        {&works, &fails, 1, " WORSE: B: frame 7: the method failed\n", "worse after "},
+        {&fails, &works, 0, " : A: frame 7: the method failed\n", "same or better after "},
+        {&fails, &fails, 0, " : A: frame 7: the method failed; B: frame 7: the method failed\n",
+         "same or better after "},
+        {&works, &lacks, 3, " : B: lost\n", "undecided after "},
+        {&lacks, &works, 0, " : A: lost\n", "same or better after "},
+        {&lacks, &lacks, 0, " : A: lost; B: lost\n", "same or better after "},
+        {&lacks, &fails, 1, " : A: lost\n", "worse after "}, /* the other row fails in B */
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%zu", i);
+        put_racer("a", *rows[i].a);
+        put_racer("b", *rows[i].b);
+        mote_expect(rows[i].status, rows[i].row,
+                    "race ./a ./b s --method certified --method stream --seed 1");
+        assert_non_null(strstr(said, rows[i].last));
+    }
 }
 
 /* Rows are judged one by one: the worst one decides, wherever it stands. */

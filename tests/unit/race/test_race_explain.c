@@ -289,21 +289,39 @@ TEST(the_last_line_and_the_json_give_one_verdict)
 {
     static const struct {
         bool worse, undecided;
+        mote_race_state state;
+        mote_verdict of_row;
+        uint32_t looks;
         const char *line, *verdict;
     } rows[] = {
-        {true, true, "worse after 12 pairs", "worse"},
-        {true, false, "worse after 12 pairs", "worse"},
-        {false, true, "undecided: more time (--budget) may decide after 12", "undecided"},
-        {false, false, "same or better after 12 pairs", "same-or-better"},
+        {true, true, MOTE_RACE_MEASURED, MOTE_VERDICT_UNDECIDED, 2, "worse after 12 pairs",
+         "worse"},
+        {true, false, MOTE_RACE_MEASURED, MOTE_VERDICT_SLOWER, 2, "worse after 12 pairs",
+         "worse"},
+        {false, true, MOTE_RACE_MEASURED, MOTE_VERDICT_UNDECIDED, 2,
+         "undecided: more time (--budget) may decide after 12", "undecided"},
+        /* No race looks more often than this. */
+        {false, true, MOTE_RACE_MEASURED, MOTE_VERDICT_UNDECIDED, MOTE_RACE_LOOKS,
+         "undecided: a quieter machine, or more builds of both sides, may decide after 12",
+         "undecided"},
+        /* Another row, or a row that B lost, is not decided by time. */
+        {false, true, MOTE_RACE_MEASURED, MOTE_VERDICT_SAME, 2, "undecided after 12",
+         "undecided"},
+        {false, true, MOTE_RACE_LEFT_OUT, MOTE_VERDICT_UNDECIDED, 0, "undecided after 12",
+         "undecided"},
+        {false, false, MOTE_RACE_MEASURED, MOTE_VERDICT_SAME, 2,
+         "same or better after 12 pairs", "same-or-better"},
     };
     static const char *const labels[] = {"old", NULL};
     const mote_race_builds builds[2] = {{.path = {builds_path[0]}, .count = 1},
                                         {.path = {builds_path[1]}, .count = 2}};
     const mote_race_options options = {.builds = {&builds[0], &builds[1]}};
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        mote_race_row row = make_row(MOTE_VERDICT_SAME, 1);
+        mote_race_row row = make_row(rows[i].of_row, 1);
         mote_race race = race_of(&row, 1);
         test_row("%zu", i);
+        row.state = rows[i].state;
+        row.looks = rows[i].looks;
         race.worse = rows[i].worse;
         race.undecided = rows[i].undecided;
         row.count_count = 1;
