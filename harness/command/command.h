@@ -53,7 +53,8 @@
       "says whether NEW is worse than BASE: exit status 0 no, 1 yes, 3 undecided",             \
       mote_options_compare)                                                                    \
     X(race, true, "A B SCENARIO... --method NAME[:key=value,...]",                             \
-      "two builds of mote measure in turn: is B slower? exit status 0 no, 1 yes, 3 undecided", \
+      "two builds of mote (programs, or folders of each linked in several orders) measure in " \
+      "turn: is B slower? exit status 0 no, 1 yes, 3 undecided",                               \
       mote_options_race)                                                                       \
     X(instructions, false, "SCENARIO --frames A-B --out DIR",                                  \
       "counts the instructions of each method's frames, by callgrind; writes "                 \

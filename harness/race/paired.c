@@ -2,6 +2,7 @@
 
 #include "harness/base/memory.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 double mote_bout_log_ratio(const mote_bout_times *times, double total_ns[2])
@@ -26,6 +27,23 @@ double mote_bout_log_ratio(const mote_bout_times *times, double total_ns[2])
     for (int side = 0; total_ns && side < 2; ++side)
         total_ns[side] = sums[side] / (double)frames;
     return log(sums[1]) - log(sums[0]);
+}
+
+void mote_paired_add(mote_paired_sample *sample, size_t unit, double log_ratio)
+{
+    assert(unit < MOTE_PAIRED_MAX);
+    sample->sum[unit] += log_ratio;
+    ++sample->times[unit];
+}
+
+size_t mote_paired_values(const mote_paired_sample *sample, double values[MOTE_PAIRED_MAX])
+{
+    size_t count = 0;
+    for (size_t unit = 0; unit < MOTE_PAIRED_MAX; ++unit) {
+        if (sample->times[unit] > 0)
+            values[count++] = sample->sum[unit] / (double)sample->times[unit];
+    }
+    return count;
 }
 
 /* The means of all pairs of values (Walsh averages), including each value with itself, sorted.

@@ -1,6 +1,8 @@
 /* The statistics of races. Two programs' times of the same frames, measured in turn, are
-   compared; the sampling unit is a pair of processes, since all frames of a process share its
-   layout. */
+   compared. What is measured together shares a layout in memory: all frames of a process that
+   of the process, and all processes of a program its link order. So the sampling unit is a pair
+   of builds where both sides have several, and else a pair of processes; what is measured of a
+   unit again lessens its noise, and adds no value. */
 #ifndef MOTE_HARNESS_PAIRED_H
 #define MOTE_HARNESS_PAIRED_H
 
@@ -19,15 +21,30 @@ typedef struct mote_bout_times {
    one pass and one frame. */
 double mote_bout_log_ratio(const mote_bout_times *times, double total_ns[2]);
 
+#define MOTE_PAIRED_MAX 100
+
+/* What is measured of each unit. Zero-initialise. */
+typedef struct mote_paired_sample {
+    double sum[MOTE_PAIRED_MAX]; /* of its logarithms */
+    size_t times[MOTE_PAIRED_MAX];
+} mote_paired_sample;
+
+/* Adds a logarithm of a unit; unit < MOTE_PAIRED_MAX. */
+void mote_paired_add(mote_paired_sample *sample, size_t unit, double log_ratio);
+
+/* The values of the units measured so far: the means of their logarithms. Returns their
+   number. */
+size_t mote_paired_values(const mote_paired_sample *sample, double values[MOTE_PAIRED_MAX]);
+
 /* The median of the means of all pairs of values (Hodges and Lehmann), for values distributed
    symmetrically about the parameter. MOTE_NONE without values. count <= MOTE_PAIRED_MAX. */
-#define MOTE_PAIRED_MAX 100
 double mote_paired_centre(const double *values, size_t count);
 
 /* Wilcoxon's signed rank interval of the same parameter: it misses with a probability of at
-   most alpha, exactly, for any distribution, if the values are independent and symmetric. This
-   holds for the logarithms of ratios of two equally fast builds measured in random order, since
-   they are exchangeable. MOTE_NONE if there are too few values for alpha. */
+   most alpha, exactly, for any distributions (of each value its own), if the values are
+   independent and symmetric. This holds for the values of units of two equally fast sides
+   measured in random order, since the sides of a unit are exchangeable. MOTE_NONE if there are
+   too few values for alpha. */
 mote_confidence mote_paired_interval(const double *values, size_t count, double alpha);
 
 /* The smallest number of values for which there is an interval; alpha in (0, 1). */

@@ -20,9 +20,11 @@ typedef struct event {
     mote_race *race;
     bool *done; /* [cells]: known precisely enough, or not to be measured */
     mote_random random;
-    size_t order[MOTE_RACE_SIDES][MOTE_RACE_BUILDS]; /* of builds, shuffled */
-    double alpha;                                    /* for a look at a cell */
-    size_t next_look;                                /* in pairs */
+    size_t turns;                   /* see count_turns */
+    size_t order[MOTE_RACE_BUILDS]; /* of builds, in these turns: shuffled */
+    size_t unit;                    /* that is measured */
+    double alpha;                   /* for a look at a cell */
+    size_t next_look;               /* in pairs */
     uint32_t looks;
     uint64_t began;
     double longest; /* duration of a pair, seconds */
@@ -64,17 +66,35 @@ static void shuffle(size_t *items, size_t count, mote_random *random)
     }
 }
 
-/* Chooses the builds of the next pair: each of a side's builds is used once before any
-   repeats. */
+size_t mote_race_build_pairs(const mote_race_options *options)
+{
+    const size_t a = options->builds[MOTE_RACE_A]->count,
+                 b = options->builds[MOTE_RACE_B]->count;
+    return a < b ? a : b;
+}
+
+/* How many pairs of processes have other builds than those before: all pairs of builds, or all
+   builds beside a single one. */
+static size_t count_turns(const mote_race_options *options)
+{
+    const size_t pairs = mote_race_build_pairs(options);
+    const size_t a = options->builds[MOTE_RACE_A]->count,
+                 b = options->builds[MOTE_RACE_B]->count;
+    return pairs > 1 ? pairs : a > b ? a : b;
+}
+
+/* Chooses the builds and the unit of the next pair of processes: all builds are used once
+   before any repeats. */
 static void choose_builds(event *e, mote_bout_options *bout)
 {
+    const size_t turn = e->race->pairs % e->turns;
+    if (turn == 0)
+        shuffle(e->order, e->turns, &e->random);
     for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
-        const mote_race_builds *builds = e->options->builds[side];
-        const size_t turn = e->race->pairs % builds->count;
-        if (turn == 0)
-            shuffle(e->order[side], builds->count, &e->random);
-        bout->program[side] = builds->path[e->order[side][turn]];
+        const mote_race_builds *own = e->options->builds[side];
+        bout->program[side] = own->path[own->count == 1 ? 0 : e->order[turn]];
     }
+    e->unit = mote_race_build_pairs(e->options) > 1 ? e->order[turn] : e->race->pairs;
 }
 
 /* Sets why a cell is not measured, from its bout; false if it was measured. */
@@ -99,7 +119,7 @@ static bool rule_out(mote_race_row *row, const mote_bout_result *result)
     return true;
 }
 
-static void keep(mote_race_row *row, const mote_bout_result *result)
+static void keep(mote_race_row *row, const mote_bout_result *result, size_t unit)
 {
     if (row->pairs == 0) {
         memcpy(row->counts, result->counts, sizeof row->counts);
@@ -108,7 +128,8 @@ static void keep(mote_race_row *row, const mote_bout_result *result)
         row->frames = result->frames;
         row->scene = result->scene;
     }
-    row->logs[row->pairs++] = result->log_ratio;
+    mote_paired_add(&row->sample, unit, result->log_ratio);
+    ++row->pairs;
     row->blocks += result->blocks;
     if (result->worst > row->worst) {
         row->worst = result->worst;
@@ -136,13 +157,13 @@ static mote_status run_bout(event *e, const mote_bout_options *options, const si
         failed = result.side[0].failed || result.side[1].failed;
         e->done[order[*place]] = rule_out(row, &result);
         if (!e->done[order[*place]])
-            keep(row, &result);
+            keep(row, &result, e->unit);
     }
     mote_bout_stop(&bout);
     return status;
 }
 
-/* Measures one value for each cell that is not done, in random order; new processes replace
+/* Measures a unit of each cell that is not done, in random order; new processes replace
    those that fail. */
 static mote_status run_pair(event *e)
 {
@@ -162,13 +183,13 @@ static mote_status run_pair(event *e)
     return status;
 }
 
-static double spread(const mote_race_row *row)
+static double spread(const double *values, size_t count)
 {
-    const double mean = mote_statistics_mean(row->logs, row->pairs);
+    const double mean = mote_statistics_mean(values, count);
     double sum = 0;
-    for (size_t i = 0; i < row->pairs; ++i)
-        sum += (row->logs[i] - mean) * (row->logs[i] - mean);
-    return row->pairs > 1 ? sqrt(sum / (double)(row->pairs - 1)) : MOTE_NONE;
+    for (size_t i = 0; i < count; ++i)
+        sum += (values[i] - mean) * (values[i] - mean);
+    return count > 1 ? sqrt(sum / (double)(count - 1)) : MOTE_NONE;
 }
 
 /* Looks at the cells that are not done; those known within `until` become done. */
@@ -178,12 +199,14 @@ static void look(event *e, bool last)
     ++e->looks;
     for (size_t i = 0; i < e->race->count; ++i) {
         mote_race_row *row = &e->race->rows[i];
+        double values[MOTE_PAIRED_MAX];
         if (e->done[i])
             continue;
         row->looks = e->looks;
-        row->spread = spread(row);
-        row->ratio = exp(mote_paired_centre(row->logs, row->pairs));
-        row->interval = mote_paired_interval(row->logs, row->pairs, e->alpha);
+        row->units = mote_paired_values(&row->sample, values);
+        row->spread = spread(values, row->units);
+        row->ratio = exp(mote_paired_centre(values, row->units));
+        row->interval = mote_paired_interval(values, row->units, e->alpha);
         row->interval.low = exp(row->interval.low);
         row->interval.high = exp(row->interval.high);
         row->verdict = mote_race_verdict(row->ratio, row->interval, o->real, o->until);
@@ -306,15 +329,33 @@ static void begin(const mote_race_options *options, mote_race *race)
     }
 }
 
+/* Refuses a race that could never have an interval. */
+static mote_status check_builds(const mote_race_options *options, double alpha)
+{
+    const size_t found = mote_race_build_pairs(options), least = mote_paired_least(alpha);
+    if (found == 1 || found >= least)
+        return MOTE_OK;
+    return mote_fail(
+        MOTE_EINVAL,
+        "%zu builds of A and %zu of B: %zu pairs of builds give no interval, %zu are "
+        "needed (rows raced: %zu); link more by relink.sh BUILD %zu OUT (make "
+        "perf-ab: ORDERS=%zu), race fewer rows, or one program of each side",
+        options->builds[MOTE_RACE_A]->count, options->builds[MOTE_RACE_B]->count, found, least,
+        options->cell_count, least, least);
+}
+
 mote_status mote_race_run(const mote_race_options *options, mote_race *race)
 {
     mote_race made;
-    begin(options, &made);
     const double alpha = MOTE_RACE_ALPHA / MOTE_RACE_LOOKS / (double)options->cell_count;
+    if (check_builds(options, alpha) != MOTE_OK)
+        return MOTE_EINVAL;
+    begin(options, &made);
     event e = {.options = options,
                .race = &made,
                .done = mote_allocate(made.count, sizeof *e.done),
                .random = {options->seed},
+               .turns = count_turns(options),
                .alpha = alpha,
                .next_look = mote_paired_least(alpha),
                .began = mote_clock_ns()};

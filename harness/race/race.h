@@ -2,10 +2,19 @@
    core, until it is known which is faster.
 
    Frames are measured in blocks, and the first side is random (harness/race/bout.h). A pair of
-   processes gives one value per cell, the logarithm of b's time over a's; further pairs follow,
-   each with new layouts of environment, stack and heap, and with the next build if a side has
-   several that differ in link order. The interval over these values is exact without
-   assumptions about the noise (harness/race/paired.h).
+   processes gives one logarithm per cell, of b's time over a's; further pairs follow, each with
+   new layouts of environment, stack and heap. The interval over the values of units is exact
+   without assumptions about the noise (harness/race/paired.h).
+
+   The units. Where both sides have several builds that differ in link order, the k-th build of
+   A is paired with the k-th of B, and these pairs of builds are the units: each is measured
+   once before any is measured again, in random order. The order of linking changes times by
+   about a per cent, so a comparison of the sources is known only as well as so many orders show
+   it, however many processes are run. The same number stands for the same order on both sides
+   (harness/scripts/relink.sh), so that most of its effect cancels out where the sources are
+   nearly the same. Where a side has one program, each pair of processes is a unit: then these
+   programs are compared with the layouts that they have. If the other side has several, they
+   take turns.
 
    Repeated looks inflate false alarms, so they are counted: a race looks at most
    MOTE_RACE_LOOKS times, and each look at each cell is granted MOTE_RACE_ALPHA / (looks *
@@ -24,7 +33,8 @@
 #define MOTE_RACE_EXACT 1e-9
 #define MOTE_RACE_BUILDS 64
 
-/* The builds of a side: one program, or several of the same sources. */
+/* The builds of a side: one program, or several of the same sources. MOTE_PAIRED_MAX at
+   most. */
 typedef struct mote_race_builds {
     char *path[MOTE_RACE_BUILDS];
     size_t count;
@@ -61,12 +71,13 @@ typedef struct mote_race_row {
                    other frames */
     mote_race_state state;
     char reason[900]; /* why it was not measured */
-    double logs[MOTE_PAIRED_MAX];
-    size_t pairs;   /* of processes; number of values in logs */
+    mote_paired_sample sample;
+    size_t pairs;   /* of processes */
+    size_t units;   /* values of the last look */
     uint32_t looks; /* so far */
     uint64_t blocks;
     double seconds; /* spent on it */
-    double spread;  /* standard deviation of logs: between processes and builds */
+    double spread;  /* standard deviation of the units' values */
     double ratio;   /* b / a, MOTE_NONE before the first look */
     mote_confidence interval;
     double total_ns[MOTE_RACE_SIDES]; /* per frame, in the first pair */
@@ -103,9 +114,13 @@ bool mote_race_is_worse(const mote_race_options *options, const mote_race_row *r
 /* What a row was asked (mote_history_asked); "" if it was not measured. The caller frees it. */
 char *mote_race_asked(const mote_race_row *row);
 
-/* Runs a race. MOTE_EIO and MOTE_EINVAL if a program cannot race at all (see mote_racer_start),
-   if no cell can be measured, and if a signal asked to stop; all processes have then ended. The
-   caller frees *race with mote_race_free. */
+/* The number of pairs of builds that are units; 1: each pair of processes is one. */
+size_t mote_race_build_pairs(const mote_race_options *options);
+
+/* Runs a race. MOTE_EINVAL if there are several pairs of builds, but too few for an interval of
+   so many cells (mote_paired_least). MOTE_EIO and MOTE_EINVAL if a program cannot race at all
+   (see mote_racer_start), if no cell can be measured, and if a signal asked to stop; all
+   processes have then ended. The caller frees *race with mote_race_free. */
 mote_status mote_race_run(const mote_race_options *options, mote_race *race);
 void mote_race_free(mote_race *race);
 

@@ -16,18 +16,33 @@ static void print_row(const mote_race_options *options, const mote_race_row *row
                       FILE *out)
 {
     const char *separator = row->what && row->what[0] ? ": " : "";
+    const char *units = mote_race_build_pairs(options) > 1 ? "builds" : "pairs";
     (void)fprintf(out, "%-*s ", width, row->name);
     if (row->state != MOTE_RACE_MEASURED)
         (void)fprintf(out, "%-45s ", mote_race_state_names[row->state]);
     else if (isfinite(row->interval.low))
-        (void)fprintf(out, "%6.3f [%5.3f, %5.3f] %-9s %2zu pairs %5.2f %% ", row->ratio,
+        (void)fprintf(out, "%6.3f [%5.3f, %5.3f] %-9s %2zu %s %5.2f %% ", row->ratio,
                       row->interval.low, row->interval.high, mote_verdict_names[row->verdict],
-                      row->pairs, 100 * row->spread);
+                      row->units, units, 100 * row->spread);
     else
-        (void)fprintf(out, "%6.3f %-24s %2zu pairs %9s", row->ratio, "no interval undecided",
-                      row->pairs, "");
+        (void)fprintf(out, "%6.3f %-24s %2zu %s %9s", row->ratio, "no interval undecided",
+                      row->units, units, "");
     (void)fprintf(out, " %s%s%s\n", mote_race_is_worse(options, row) ? "WORSE" : "", separator,
                   row->what ? row->what : "");
+}
+
+static void print_header(const mote_race_options *options, FILE *out)
+{
+    const size_t builds = mote_race_build_pairs(options);
+    if (builds > 1)
+        (void)fprintf(out, "time B / A over %zu pairs of builds", builds);
+    else
+        (void)fprintf(out, "time B / A of these programs, with the layouts that they have");
+    (void)fprintf(
+        out,
+        "; all intervals hold together with %.3g %%; a change counts from %.3g %% on; "
+        "then pairs of %s, and how far these differ\n",
+        100 * (1 - MOTE_RACE_ALPHA), 100 * options->real, builds > 1 ? "builds" : "processes");
 }
 
 /* What may decide a race that is undecided: where an interval is too wide, and nowhere else. */
@@ -52,10 +67,7 @@ void mote_race_print(const mote_race_options *options, const mote_race *race, FI
         const int length = (int)strlen(race->rows[i].name);
         width = length > width ? length : width;
     }
-    (void)fprintf(out,
-                  "time B / A; all intervals hold together with %.3g %%; a change counts from "
-                  "%.3g %% on; then pairs of processes, and how far these differ\n",
-                  100 * (1 - MOTE_RACE_ALPHA), 100 * options->real);
+    print_header(options, out);
     for (size_t i = 0; i < race->count; ++i)
         print_row(options, &race->rows[i], width, out);
     (void)fprintf(out, "%s%s after %zu pairs of processes and %.0f s\n",
@@ -80,19 +92,21 @@ static json_t *row_json(const mote_race_options *options, const mote_race_row *r
 {
     char *asked = mote_race_asked(row);
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:s, s:s, s:i, s:s, s:o, s:o, s:o, s:s, s:b, s:i, s:i, s:I, s:f, s:o, "
+        "{s:s, s:s, s:s, s:s, s:s, s:i, s:s, s:o, s:o, s:o, s:s, s:b, s:i, s:i, s:i, s:I, s:f, "
+        "s:o, "
         "s:[o, o], s:o, s:[o, o], s:o, s:s}",
         "name", row->name, "asked", asked, "scenario", row->cell->scenario, "method",
         row->cell->method, "cache", mote_cache_names[row->cell->cache], "frames",
         (int)row->frames, "status", mote_race_state_names[row->state], "ratio",
         mote_json_number(row->ratio), "ci_low", mote_json_number(row->interval.low), "ci_high",
         mote_json_number(row->interval.high), "verdict", mote_verdict_names[row->verdict],
-        "worse", mote_race_is_worse(options, row), "pairs", (int)row->pairs, "looks",
-        (int)row->looks, "blocks", (json_int_t)row->blocks, "seconds", row->seconds, "spread",
-        mote_json_number(row->spread), "total_ns", mote_json_number(row->total_ns[0]),
-        mote_json_number(row->total_ns[1]), "counts", counts_json(row), "instructions",
-        mote_json_number(row->instructions[0]), mote_json_number(row->instructions[1]),
-        "answers_apart", mote_json_number(row->worst), "what", row->what ? row->what : "");
+        "worse", mote_race_is_worse(options, row), "pairs", (int)row->pairs, "units",
+        (int)row->units, "looks", (int)row->looks, "blocks", (json_int_t)row->blocks, "seconds",
+        row->seconds, "spread", mote_json_number(row->spread), "total_ns",
+        mote_json_number(row->total_ns[0]), mote_json_number(row->total_ns[1]), "counts",
+        counts_json(row), "instructions", mote_json_number(row->instructions[0]),
+        mote_json_number(row->instructions[1]), "answers_apart", mote_json_number(row->worst),
+        "what", row->what ? row->what : "");
     free(asked);
     return object;
 }

@@ -1,12 +1,15 @@
 #!/bin/sh
-# relink.sh BUILD COUNT OUT [PROGRAM]: links a program of a build folder (mote by default; tests/NAME
-# for a test) COUNT times with its object files in random orders, into OUT/PROGRAM-NN. The position of
-# functions in memory changes their times by about a per cent, so two builds can be compared only over
-# several such orders (mote race A B, each a folder). Existing programs newer than the build are kept.
+# relink.sh BUILD COUNT OUT [PROGRAM [FIRST]]: links a program of a build folder (mote by default; tests/NAME
+# for a test) COUNT times with its object files in random orders, into OUT/PROGRAM-NN, numbered from FIRST (1)
+# on. The position of functions in memory changes their times by about a per cent, so two builds can be compared
+# only over several such orders (mote race A B, each a folder). A number stands for the same order in every
+# build; a file that one of them lacks does not change the order of the others. Existing programs newer than the
+# build are kept, and those of other numbers removed: they may be of an older build.
 set -eu
 build=$1
 count=$2
 program=${4:-mote}
+first=${5:-1}
 name=$(basename "$program")
 mkdir -p "$3"
 out=$(cd "$3" && pwd)
@@ -55,10 +58,16 @@ objects=$({
 } | sort -u)
 cd "$from"
 
-# $1: a seed, which alone determines the order.
+# $1: the number of the order. The place of an object comes from a hash of this number and of its name.
 shuffled() {
-    printf '%s\n' "$objects" | awk -v seed="$1" 'BEGIN { srand(seed) } { print rand() "\t" $0 }' |
-        sort | cut -f 2
+    printf '%s\n' "$objects" | awk -v number="$1" '
+        BEGIN { for (i = 1; i < 256; ++i) code[sprintf("%c", i)] = i }
+        {
+            hash = 1000 * number
+            # Squares of numbers below this prime are exact.
+            for (i = 1; i <= length($0); ++i) hash = (hash * hash + code[substr($0, i, 1)] + number) % 67108859
+            printf "%08d\t%s\n", hash, $0
+        }' | sort | cut -f 2
 }
 
 # The options of the command stay the same; -o is replaced.
@@ -67,7 +76,7 @@ relink() {
         skip { skip = 0; next } $0 == "-o" { skip = 1; next } { print }')" "$(shuffled "$1")"
     # shellcheck disable=SC2046,SC2086
     set -- "$1" $(printf '%s\n' "$2" | sed -n '1p') $3 $(printf '%s\n' "$2" | sed '1d')
-    number=$(printf '%02d' "$1")
+    number=$1
     shift
     "$@" -o "$out/.linking-$number"
     mv "$out/.linking-$number" "$out/$name-$number"
@@ -77,6 +86,10 @@ is_kept() {
     [ -n "$(find "$out/$name-$1" -newer "$built" 2>/dev/null)" ]
 }
 
-for seed in $(seq "$count"); do
-    is_kept "$(printf '%02d' "$seed")" || relink "$seed"
+numbers=$(seq -f %02g "$first" "$((first + count - 1))")
+# shellcheck disable=SC2086 # a word for each number
+find "$out" -maxdepth 1 -name "$name-[0-9]*" | grep -vxF "$(printf "$out/$name-%s\n" $numbers)" |
+    while read -r other; do rm "$other"; done
+for number in $numbers; do
+    is_kept "$number" || relink "$number"
 done

@@ -4,8 +4,9 @@
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
 
-#include "harness/race/bout.h"
+#include "harness/race/race.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -459,6 +460,8 @@ TEST(a_race_looks_six_times_at_most)
     put_varying("a", 30000);
     put_varying("b", 30000);
     mote_expect(3, "\"looks\": 6", RACE "--until 0.001%% --real 0.001%% --budget 0");
+    assert_non_null(strstr(said, "\"pairs\": 81,"));
+    assert_non_null(strstr(said, "\"units\": 81,"));
     assert_non_null(strstr(said, "\"verdict\": \"undecided\""));
 }
 
@@ -482,6 +485,86 @@ TEST(a_race_ends_with_its_budget)
     assert_non_null(strstr(said, "\"ci_low\": null"));
     mote_expect(3, "no interval undecided", "race a b s --method certified --budget 0.0001");
     assert_non_null(strstr(said, "undecided: more time (--budget) may decide after 1 pairs"));
+}
+
+/* Planted: pairs of builds that differ by these logarithms in every process. */
+#define BUILDS 12
+static const double apart[BUILDS] = {-0.007, -0.004, -0.002, 0.001, 0.003,  0.005,
+                                     0.006,  0.008,  0.009,  0.011, 0.0135, 0.017};
+
+/* Makes racers of one frame in the folders a and b. layout: how far the order of linking
+   changes the times of both sides, as a logarithm. */
+static void put_builds(size_t a, size_t b, double layout)
+{
+    const size_t counts[] = {a, b};
+    for (size_t side = 0; side < 2; ++side) {
+        assert_int_equal(mkdir(side ? "b" : "a", 0755), 0);
+        for (size_t k = 0; k < counts[side]; ++k) {
+            char name[32], run[64];
+            const double change = layout * cos((double)k) + (side ? apart[k] : 0);
+            (void)snprintf(name, sizeof name, "%s/mote-%02zu", side ? "b" : "a", k + 1);
+            (void)snprintf(run, sizeof run, "say 'ok\\t1\\t-\\t%.0f'", 1e8 * exp(change));
+            put_racer(name, (script){.cell = "say 'ok\\t0\\t1\\t1'", .run = run});
+        }
+    }
+}
+
+static double number_of(const json_t *row, const char *key)
+{
+    return json_number_value(json_object_get(row, key));
+}
+
+/* However many processes are raced, twelve orders of linking are a sample of twelve. */
+TEST(an_interval_is_over_the_pairs_of_builds_and_covers_how_they_differ)
+{
+    static const double layouts[] = {0, 0.1};
+    const mote_confidence expected =
+        mote_paired_interval(apart, BUILDS, MOTE_RACE_ALPHA / MOTE_RACE_LOOKS);
+    assert_true(expected.low < 0 && expected.high > 0);
+    for (size_t i = 0; i < ROWS_OF(layouts); ++i) {
+        test_row("layout %g", layouts[i]);
+        assert_int_equal(folder_next(), 0);
+        put_builds(BUILDS, BUILDS, layouts[i]);
+        mote_expect(3, "12 builds  0.72 %",
+                    "race a b s --method certified --seed 1 "
+                    "--until 0.001%% --real 0.1%% --budget 0 --out race");
+        assert_non_null(strstr(said, "time B / A over 12 pairs of builds; "));
+        assert_non_null(strstr(said, "undecided: a quieter machine, or more builds"));
+        json_t *race = json_load_file("race", 0, NULL);
+        const json_t *row = json_array_get(json_object_get(race, "rows"), 0);
+        assert_true(fabs(log(number_of(row, "ci_low")) - expected.low) < 1e-7);
+        assert_true(fabs(log(number_of(row, "ci_high")) - expected.high) < 1e-7);
+        assert_true(fabs(log(number_of(row, "ratio")) - mote_paired_centre(apart, BUILDS)) <
+                    1e-7);
+        assert_true(number_of(row, "units") == BUILDS && number_of(row, "pairs") == 81);
+        json_decref(race);
+    }
+}
+
+TEST(too_few_builds_for_any_interval_are_refused)
+{
+    static const struct {
+        size_t a, b;
+        const char *methods, *says;
+    } rows[] = {
+        {10, 12, "--method certified",
+         "10 builds of A and 12 of B: 10 pairs of builds give no interval, 11 are needed (rows "
+         "raced: 1); link more by relink.sh BUILD 11 OUT (make perf-ab: ORDERS=11)"},
+        {12, 2, "--method certified", "12 builds of A and 2 of B: 2 pairs of builds"},
+        {12, 11, "--method certified --method stream",
+         "11 pairs of builds give no interval, 12"},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%zu and %zu", rows[i].a, rows[i].b);
+        assert_int_equal(folder_next(), 0);
+        put_builds(rows[i].a, rows[i].b, 0);
+        mote_expect(4, rows[i].says, "race a b s %s", rows[i].methods);
+    }
+    assert_int_equal(folder_next(), 0);
+    put_builds(1, 3, 0); /* of a program, each pair of processes is a value */
+    mote_expect(0, "11 pairs  ", "race a b s --method certified --seed 1 --until 5%%");
+    assert_non_null(
+        strstr(said, "time B / A of these programs, with the layouts that they have"));
 }
 
 /* A method that begins to fail is worse; more time would decide nothing. */

@@ -184,6 +184,63 @@ TEST(equal_programs_are_the_same_where_processes_differ_by_two_per_cent)
     assert_true(same >= 390);
 }
 
+/* Standard normal (Box and Muller). */
+static double normal(mote_random *random)
+{
+    const double u = 1 - mote_random_unit(random), v = mote_random_unit(random);
+    return sqrt(-2 * log(u)) * cos(6.283185307179586 * v);
+}
+
+/* Whether any look of a race of equal sides sees an interval without 0. Each of so many builds
+   a side has a layout of its own. */
+static bool misses_at_some_look(mote_random *random, size_t builds, double layout, double noise)
+{
+    const double alpha = MOTE_RACE_ALPHA / MOTE_RACE_LOOKS;
+    mote_paired_sample sample = {{0}, {0}};
+    double level[MOTE_PAIRED_MAX], values[MOTE_PAIRED_MAX];
+    size_t pairs = 0, next = mote_paired_least(alpha);
+    bool misses = false;
+    for (size_t k = 0; k < builds; ++k)
+        level[k] = layout * (normal(random) - normal(random));
+    for (size_t look = 0; look < MOTE_RACE_LOOKS; ++look) {
+        for (; pairs < next; ++pairs)
+            mote_paired_add(&sample, pairs % builds,
+                            level[pairs % builds] + noise * normal(random));
+        next = mote_race_next_look(pairs);
+        const size_t count = mote_paired_values(&sample, values);
+        assert_int_equal(count, pairs < builds ? pairs : builds);
+        const mote_confidence interval = mote_paired_interval(values, count, alpha);
+        misses = misses || interval.low > 0 || interval.high < 0;
+    }
+    return misses;
+}
+
+/* With each pair of processes as a value of its own, 12 builds would miss in 13 % of races. */
+TEST(repeats_of_a_unit_add_no_value)
+{
+    static const size_t builds[] = {11, 12, 24, 64};
+    mote_random random = {19};
+    for (size_t k = 0; k < ROWS_OF(builds); ++k) {
+        size_t misses = 0;
+        for (int i = 0; i < 4000; ++i)
+            misses += misses_at_some_look(&random, builds[k], 0.005, 0.006);
+        test_row("%zu builds: %zu misses of 4000", builds[k], misses);
+        assert_true(misses <= 4000 * MOTE_RACE_ALPHA * 1.5);
+    }
+}
+
+TEST(the_value_of_a_unit_is_the_mean_of_what_was_measured)
+{
+    mote_paired_sample sample = {{0}, {0}};
+    double values[MOTE_PAIRED_MAX];
+    assert_int_equal(mote_paired_values(&sample, values), 0);
+    mote_paired_add(&sample, MOTE_PAIRED_MAX - 1, 0.5);
+    mote_paired_add(&sample, 2, 0.25);
+    mote_paired_add(&sample, 2, -0.75);
+    assert_int_equal(mote_paired_values(&sample, values), 2);
+    assert_true(values[0] == -0.25 && values[1] == 0.5);
+}
+
 /* A race keeps MOTE_PAIRED_MAX values a cell, so the last look must not need more, however many
    cells share alpha. */
 TEST(the_last_look_of_any_race_is_at_100_pairs_at_most)

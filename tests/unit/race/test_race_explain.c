@@ -19,6 +19,7 @@ static mote_race_row make_row(mote_verdict verdict, double ratio)
     return (mote_race_row){.cell = &cell,
                            .name = mote_duplicate("ww/certified/hot"),
                            .pairs = 12,
+                           .units = 12,
                            .frames = 40,
                            .ratio = ratio,
                            .spread = 0.01,
