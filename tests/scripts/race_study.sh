@@ -5,8 +5,8 @@ set -eu
 study=$1 records=$2 work=$3
 fail() { echo "race_study: $*" >&2; exit 1; }
 rm -rf "$work"
-mkdir -p "$work/programs"
-cat >"$work/programs/00" <<'RACER'
+mkdir -p "$work/programs/a" "$work/programs/b"
+cat >"$work/programs/a/00" <<'RACER'
 #!/bin/sh
 times=20000
 for _ in $(seq 199); do times=$times,20000; done
@@ -18,7 +18,8 @@ while read -r request _ _ last _; do
     esac
 done
 RACER
-chmod +x "$work/programs/00"
+chmod +x "$work/programs/a/00"
+cp "$work/programs/a/00" "$work/programs/b/01"
 "$study" run "$work/programs" "$work" 1 0 >"$work/said" || fail "status $?: $(cat "$work/said")"
 line='(idle|compiler|busy),none,0,1,0,0,2,0,0,1\.00000,1\.00000,1\.00000,[0-9]+,[0-9.]+,[0-9.]+'
 [ "$(grep -cxE "$line" "$work/races.csv")" = 2 ] || fail "two lines are expected in $(cat "$work/races.csv")"
@@ -28,6 +29,9 @@ grep -q '^mote: ONLY="idle:4": .*such as "idle:2 compiler:5"' "$work/said" || fa
 "$study" run "$work/programs" "$work/only" 0 1 'compiler:5' >"$work/said" || fail "status $?: $(cat "$work/said")"
 [ "$(cut -d , -f 2-4 "$work/only/races.csv")" = "$(printf '%s\n' plant,per_cent,number 'certified query,5,1' 'particle sweep,5,1' 'clock path,5,1')" ] || fail "ONLY=compiler:5: $(cat "$work/only/races.csv")"
 grep -q '^MOTE_PLANT=clock:1000 ' "$work/only/racers/b/00" || fail "5 % of a frame of 20 us: $(cat "$work/only/racers/b/00")"
+for side in a/00 b/01; do
+    grep -qF " exec '$work/programs/$side' " "$work/only/racers/${side%/*}/00" || fail "programs/$side is not raced"
+done
 
 # Beside other tests the machine may have been busy, and then the race would be repeated.
 sed -i '2s/^[a-z]*/idle/; 3s/^[a-z]*/compiler/' "$work/races.csv"

@@ -1,12 +1,14 @@
 /* make perf-study: how often the verdicts of a race are wrong, and how long races take.
 
-   race_study run PROGRAMS OUT RACES PLANTED [ONLY]   races builds of race_planted (PROGRAMS: a
-   folder of them, linked in different orders) against each other: RACES times unchanged, and
-   PLANTED times with each slowdown; each on the machine as it is and beside a compiler on the
-   other core. ONLY: words PLACE:PER_CENT, such as "idle:2 compiler:5", and no other races (0:
-   unchanged). Each race adds a line to OUT/races.csv; a race that has its line is not run
-   again. race_study table RACES.csv BASE             prints the shares as a table, and writes
-   BASE.dat for plots/power.gp */
+   race_study run PROGRAMS OUT RACES PLANTED [ONLY]   races builds of race_planted (PROGRAMS/a
+   and PROGRAMS/b: folders of them, all linked in different orders) against each other: RACES
+   times unchanged, and PLANTED times with each slowdown; each on the machine as it is and
+   beside a compiler on the other core. ONLY: words PLACE:PER_CENT, such as "idle:2 compiler:5",
+   and no other races (0: unchanged). Each race adds a line to OUT/races.csv; a race that has
+   its line is not run again.
+
+   race_study table RACES.csv BASE   prints the shares as a table, and writes BASE.dat for
+   plots/power.gp */
 #include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
@@ -70,13 +72,15 @@ typedef struct study {
     double frame_ns;  /* of CERTIFIED in the last race, with nothing planted; 0: no race yet */
 } study;
 
-/* Makes a folder of wrappers that run the programs with something planted; returns its path. */
-static mote_status make_racers(const study *s, const char *name, const char *plant,
+/* Makes a folder of wrappers that run the programs of a side with something planted, and finds
+   them. */
+static mote_status make_racers(const study *s, const char *side, const char *plant,
                                mote_race_builds *builds)
 {
-    mote_race_builds programs;
-    mote_status status = mote_race_builds_find(s->programs, &programs);
-    char *folder = mote_format("%s/racers/%s", s->out, name);
+    mote_race_builds programs = {.count = 0};
+    char *own = mote_format("%s/%s", s->programs, side);
+    char *folder = mote_format("%s/racers/%s", s->out, side);
+    mote_status status = mote_race_builds_find(own, &programs);
     if (status == MOTE_OK)
         status = mote_directory_make(folder);
     for (size_t i = 0; status == MOTE_OK && i < programs.count; ++i) {
@@ -92,6 +96,7 @@ static mote_status make_racers(const study *s, const char *name, const char *pla
     if (status == MOTE_OK)
         status = mote_race_builds_find(folder, builds);
     free(folder);
+    free(own);
     mote_race_builds_free(&programs);
     return status;
 }
