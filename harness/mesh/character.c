@@ -8,6 +8,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -144,13 +145,33 @@ static char *list_clips(const mote_rig *rig)
     return text.data;
 }
 
+static mote_status refuse_clip(const mote_rig *rig, const char *asked)
+{
+    if (rig->clips_count == 0)
+        return mote_fail(MOTE_EINVAL, "no clips in it, so that nothing moves; give a file with "
+                                      "an animation, or name it as \"file\"");
+    char *known = list_clips(rig);
+    const mote_status status = mote_fail(MOTE_EINVAL, "no clip %.80s; it has %s", asked, known);
+    free(known);
+    return status;
+}
+
+mote_status mote_character_clip_numbered(const mote_character *character, int64_t number,
+                                         uint32_t *clip)
+{
+    char asked[24];
+    if (number >= 1 && (uint64_t)number <= character->rig.clips_count) {
+        *clip = (uint32_t)number - 1;
+        return MOTE_OK;
+    }
+    (void)snprintf(asked, sizeof asked, "%lld", (long long)number);
+    return refuse_clip(&character->rig, asked);
+}
+
 mote_status mote_character_find_clip(const mote_character *character, const char *name,
                                      uint32_t *clip)
 {
     const mote_rig *rig = &character->rig;
-    if (rig->clips_count == 0)
-        return mote_fail(MOTE_EINVAL, "no clips in it, so that nothing moves; give a file with "
-                                      "an animation, or name it as \"file\"");
     for (size_t k = 0; k < rig->clips_count; ++k) {
         if (strcmp(rig->names + rig->clips[k].name, name) == 0) {
             *clip = (uint32_t)k;
@@ -158,16 +179,9 @@ mote_status mote_character_find_clip(const mote_character *character, const char
         }
     }
     char *end;
-    const unsigned long number = strtoul(name, &end, 10);
-    if (end != name && *end == '\0' && number >= 1 && number <= rig->clips_count) {
-        *clip = (uint32_t)number - 1;
-        return MOTE_OK;
-    }
-    char *known = list_clips(rig);
-    const mote_status status =
-        mote_fail(MOTE_EINVAL, "no clip %.80s; it has %s", name, known ? known : "none");
-    free(known);
-    return status;
+    const long number = strtol(name, &end, 10);
+    return end != name && *end == '\0' ? mote_character_clip_numbered(character, number, clip)
+                                       : refuse_clip(rig, name);
 }
 
 mote_status mote_character_scale(mote_character *character, mote_vec3 factor)

@@ -15,8 +15,12 @@ mote_status mote_character_import_file(const char *path, mote_character **charac
 
 void mote_character_destroy(mote_character *character); /* NULL is allowed */
 
-/* Finds a clip by name, or by number from 1; *clip counts from 0. MOTE_EINVAL if there is none,
-   with a list of the clips. */
+/* The clip of a number from 1; *clip counts from 0. MOTE_EINVAL if there is none, with a list
+   of the clips. */
+mote_status mote_character_clip_numbered(const mote_character *character, int64_t number,
+                                         uint32_t *clip);
+
+/* Finds a clip by name; a name that no clip has may be a clip's number. Otherwise the same. */
 mote_status mote_character_find_clip(const mote_character *character, const char *name,
                                      uint32_t *clip);
 

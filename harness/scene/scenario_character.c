@@ -78,34 +78,29 @@ void mote_scenario_set_samples(mote_player *player, double first, double last, m
     body->sample_count = MOTE_PLAYER_SAMPLES;
 }
 
-/* "clip": a name, or a number from 1; the default is the first clip. The caller frees *name. */
-static mote_status clip_name(const mote_json *key, char **name)
+/* "clip": a name, or a number from 1; the default is the first clip. */
+static mote_status find_clip(const mote_json *key, mote_player *player)
 {
     int64_t number = 1;
-    const char *text = NULL;
+    const char *name = NULL;
     mote_status status = MOTE_OK;
-    if (json_is_number(key->value))
+    if (json_is_string(key->value))
+        status = mote_json_string(key, &name);
+    else if (json_is_number(key->value))
         status = mote_json_integer(key, 1, UINT32_MAX, &number);
-    else if (json_is_string(key->value))
-        status = mote_json_string(key, &text);
     else if (key->value)
         status = mote_json_refuse(key, "the name of a clip, or its number");
-    if (status == MOTE_OK)
-        *name = text ? mote_duplicate(text) : mote_format("%lld", (long long)number);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    return name ? mote_character_find_clip(player->character, name, &player->clip)
+                : mote_character_clip_numbered(player->character, number, &player->clip);
 }
 
 static mote_status read_clip(const mote_json *body, mote_player *player)
 {
     const mote_json key = mote_json_member(body, "clip");
     const mote_json at = key.value ? key : mote_json_member(body, "character");
-    char *name = NULL;
-    mote_status status = clip_name(&key, &name);
-    if (status == MOTE_OK)
-        status = mote_json_blame(
-            &at, mote_character_find_clip(player->character, name, &player->clip));
-    free(name);
-    return status;
+    return mote_json_blame(&at, find_clip(&key, player));
 }
 
 static mote_status read_play(const mote_json *body, mote_player *player)

@@ -75,7 +75,7 @@ static void play(mote_character *character)
     uint32_t clip;
     if (mote_character_subdivide(character, 1) != MOTE_OK ||
         mote_character_scale(character, factor) != MOTE_OK ||
-        mote_character_find_clip(character, "1", &clip) != MOTE_OK ||
+        mote_character_clip_numbered(character, 1, &clip) != MOTE_OK ||
         mote_player_create(character, character->mesh, &field, &player) != MOTE_OK) {
         mote_character_destroy(character);
         return;

@@ -16,15 +16,19 @@ typedef struct bar_text {
     const char *upper_weights; /* of vertices 4 to 11 for Upper */
     const char *rotations;     /* keys: time;4;w,x,y,z;; */
     const char *rotation_count;
-    const char *upper; /* the name of the bone's node */
-    const char *bind;  /* the fourth row of Upper's offset matrix */
+    const char *upper;   /* the name of the bone's node */
+    const char *bind;    /* the fourth row of Upper's offset matrix */
+    const char *clip[2]; /* names */
 } bar_text;
 
 static inline bar_text bar_default(void)
 {
     return (bar_text){"0.5,0.5,0.5,0.5,1.0,1.0,1.0,1.0",
-                      "0;4;1.0,0.0,0.0,0.0;;,10;4;0.70710678,0.0,0.0,-0.70710678;;;", "2",
-                      "Upper", "-1.0,0.0,0.0,1.0"};
+                      "0;4;1.0,0.0,0.0,0.0;;,10;4;0.70710678,0.0,0.0,-0.70710678;;;",
+                      "2",
+                      "Upper",
+                      "-1.0,0.0,0.0,1.0",
+                      {"Bend", "Still"}};
 }
 
 static inline void bar_write(const char *path, bar_text part)
@@ -58,12 +62,14 @@ static inline void bar_write(const char *path, bar_text part)
     fprintf(f, "  SkinWeights { \"Upper\"; 8; 4,5,6,7,8,9,10,11; %s; %s%s;; }\n }\n}\n",
             part.upper_weights, identity, part.bind);
     fprintf(f,
-            "AnimationSet Bend {\n Animation {\n  {%s}\n"
+            "AnimationSet %s {\n Animation {\n  {%s}\n"
             "  AnimationKey { 0; %s; %s }\n"
             "  AnimationKey { 2; 1; 0;3;1.0,0.0,0.0;;; }\n }\n}\n",
-            part.upper, part.rotation_count, part.rotations);
-    fprintf(f, "AnimationSet Still {\n Animation {\n  {Lower}\n"
-               "  AnimationKey { 2; 1; 0;3;0.0,0.0,0.0;;; }\n }\n}\n");
+            part.clip[0], part.upper, part.rotation_count, part.rotations);
+    fprintf(f,
+            "AnimationSet %s {\n Animation {\n  {Lower}\n"
+            "  AnimationKey { 2; 1; 0;3;0.0,0.0,0.0;;; }\n }\n}\n",
+            part.clip[1]);
     (void)fclose(f);
 }
 

@@ -155,6 +155,11 @@ TEST(mote_character_clips_are_found_by_name_and_number)
     assert_int_equal(mote_character_find_clip(c, "Run", &clip), MOTE_EINVAL);
     assert_string_equal(mote_error_text(), "no clip Run; it has 1 Bend (1 s), 2 Still (0 s)");
     assert_int_equal(mote_character_find_clip(c, "3", &clip), MOTE_EINVAL);
+    assert_int_equal(mote_character_clip_numbered(c, 2, &clip), MOTE_OK);
+    assert_int_equal(clip, 1);
+    assert_int_equal(mote_character_clip_numbered(c, 0, &clip), MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), "no clip 0; it has 1 Bend (1 s), 2 Still (0 s)");
+    assert_int_equal(mote_character_clip_numbered(c, 3, &clip), MOTE_EINVAL);
     assert_true(mote_rig_clip_time(&c->rig.clips[0], 2.25, 1) == 0.25);
     assert_true(mote_rig_clip_time(&c->rig.clips[0], -0.25, 1) == 0.75);
     assert_true(mote_rig_clip_time(&c->rig.clips[0], 2.25, 0) == 1);

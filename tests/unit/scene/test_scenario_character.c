@@ -14,16 +14,22 @@
 #define BOX "{\"letter\": \"T\", \"triangles\": 400}"
 #define BAR(more) "{\"character\": \"bar.x\"" more "}"
 
-static mote_scenario *load(const char *bodies)
+/* Of the bar that is in bar.x. */
+static mote_scenario *load_bodies(const char *bodies)
 {
     mote_scenario *scenario = NULL;
     char text[2000];
     (void)snprintf(text, sizeof text, HEAD "%s}", bodies);
-    bar_write("bar.x", bar_default());
     file_put("bars.json", text);
     if (mote_scenario_load("./bars.json", &scenario) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return scenario;
+}
+
+static mote_scenario *load(const char *bodies)
+{
+    bar_write("bar.x", bar_default());
+    return load_bodies(bodies);
 }
 
 /* The angle by which the second bone has turned in a frame, from the middles of the bar's end
@@ -72,6 +78,32 @@ TEST(mote_scenario_character_plays_its_clip)
     check_bends(", \"start\": 0.5, \"speed\": -1", (const double[]){45, 0, 45});
     check_bends(", \"clip\": \"Still\"", (const double[]){0, 0, 0});
     check_bends(", \"scale\": 3, \"subdivide\": 0", (const double[]){0, 45, 0});
+}
+
+/* The first clip is named 2 and the second 1. */
+TEST(mote_scenario_character_takes_a_number_for_the_number_of_its_clip)
+{
+    static const struct {
+        const char *more;
+        uint32_t clip;
+    } rows[] = {{"", 0},
+                {", \"clip\": 1", 0},
+                {", \"clip\": 2", 1},
+                {", \"clip\": \"1\"", 1},
+                {", \"clip\": \"2\"", 0}};
+    bar_text numbers = bar_default();
+    numbers.clip[0] = "2";
+    numbers.clip[1] = "1";
+    bar_write("bar.x", numbers);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char bodies[500];
+        test_row("%s", rows[i].more);
+        (void)snprintf(bodies, sizeof bodies, "[{\"character\": \"bar.x\"%s}, " BOX "]",
+                       rows[i].more);
+        mote_scenario *s = load_bodies(bodies);
+        assert_int_equal(s->motion->body[0].player->clip, rows[i].clip);
+        mote_scenario_destroy(s);
+    }
 }
 
 /* A clip that does not move is reported to methods as no change of shape. */
@@ -219,6 +251,13 @@ TEST(mote_scenario_pair_of_characters_plays_their_clips)
         fail_msg("%s", mote_error_text());
     assert_string_equal(s->name, "bar-bar");
     assert_true(s->motion->body[0].player && s->motion->body[1].player);
+    mote_scenario_destroy(s);
+    bar_text numbers = bar_default();
+    numbers.clip[0] = "2";
+    numbers.clip[1] = "1";
+    bar_write("bar.x", numbers);
+    assert_int_equal(mote_scenario_load("pair:bar.x:bar.x", &s), MOTE_OK);
+    assert_int_equal(s->motion->body[0].player->clip, 0); /* the other does not move */
     mote_scenario_destroy(s);
 }
 
