@@ -45,27 +45,50 @@ static slot method_slots[SLOTS_MAX], field_slots[SLOTS_MAX];
 static size_t method_count, field_count;
 static uint64_t files_hash;
 
+static mote_status blame(const char *path, mote_status status)
+{
+    char why[800];
+    (void)snprintf(why, sizeof why, "%s", mote_error_text());
+    return mote_fail(status, "%s: %s", path, why);
+}
+
+/* Slots have what a child found in the library. A library that was built again since may have
+   other items, or take other parameters, at the same numbers. */
+static mote_status check_unchanged(const library *l, const mote_plugin_item *const *items,
+                                   size_t count)
+{
+    json_t *now = NULL;
+    const mote_status status = mote_plugin_describe(items, count, &now);
+    const bool same = status == MOTE_OK && json_equal(now, l->offer);
+    json_decref(now);
+    if (status != MOTE_OK || same)
+        return status;
+    return mote_fail(MOTE_EINVAL, "offers other methods, fields or parameters than when this "
+                                  "command began; give the same command again");
+}
+
 /* Loads the library of a slot; *item is then the slot's item. */
 static mote_status load(const slot *s, const void **item)
 {
-    size_t count = 0;
-    if (!s->from->items) {
-        const mote_status status = mote_plugin_load(s->from->path, &s->from->items, &count);
-        if (status != MOTE_OK) {
-            s->from->items = NULL;
-            char why[800];
-            (void)snprintf(why, sizeof why, "%s", mote_error_text());
-            return mote_fail(status, "%s: %s", s->from->path, why);
-        }
+    library *l = s->from;
+    if (!l->items) {
+        const mote_plugin_item *const *items;
+        size_t count = 0;
+        mote_status status = mote_plugin_load(l->path, &items, &count);
+        if (status == MOTE_OK)
+            status = check_unchanged(l, items, count);
+        if (status != MOTE_OK)
+            return blame(l->path, status);
+        l->items = items;
     }
-    *item = s->from->items[s->item]->item;
+    *item = l->items[s->item]->item;
     return MOTE_OK;
 }
 
 static mote_status create_method(size_t k, const mote_setup *setup, void **state)
 {
     slot *s = &method_slots[k];
-    const void *item;
+    const void *item = NULL;
     const mote_status status = load(s, &item);
     if (status != MOTE_OK)
         return status;
@@ -92,7 +115,7 @@ typedef struct traits_question {
 static mote_status ask_traits(void *context, int output)
 {
     const traits_question *q = context;
-    const void *item;
+    const void *item = NULL;
     mote_status status = load(q->of, &item);
     if (status != MOTE_OK)
         return status;
@@ -121,7 +144,7 @@ static mote_status create_field(size_t k, const mote_mesh *mesh, const double *v
                                 mote_field **field)
 {
     slot *s = &field_slots[k];
-    const void *item;
+    const void *item = NULL;
     const mote_status status = load(s, &item);
     if (status != MOTE_OK)
         return status;
@@ -240,13 +263,6 @@ static mote_status add_offer(library *l, const char *text, size_t size)
             status = add_field(l, row);
     }
     return status;
-}
-
-static mote_status blame(const char *path, mote_status status)
-{
-    char why[800];
-    (void)snprintf(why, sizeof why, "%s", mote_error_text());
-    return mote_fail(status, "%s: %s", path, why);
 }
 
 mote_status mote_plugin_open(const char *path)

@@ -155,35 +155,48 @@ static mote_status describe_field(size_t item, const mote_field_maker *m, json_t
     return status;
 }
 
+static mote_status describe_item(size_t i, const mote_plugin_item *item, json_t *methods,
+                                 json_t *fields)
+{
+    if (!item->item || (item->kind != MOTE_PLUGIN_METHOD && item->kind != MOTE_PLUGIN_FIELD))
+        return mote_fail(MOTE_EINVAL, "item %zu is neither a method nor a field", i + 1);
+    if (!same_sizes(item))
+        return mote_fail(MOTE_EINVAL,
+                         "compiled against headers of another mote with version %d of the "
+                         "contract of methods: compile it again with this mote's headers",
+                         MOTE_CONTRACT);
+    return item->kind == MOTE_PLUGIN_METHOD ? describe_method(i, item->item, methods)
+                                            : describe_field(i, item->item, fields);
+}
+
+mote_status mote_plugin_describe(const mote_plugin_item *const *items, size_t count,
+                                 json_t **offer)
+{
+    json_t *methods = json_array(), *fields = json_array();
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; status == MOTE_OK && i < count; ++i)
+        status = describe_item(i, items[i], methods, fields);
+    json_t *made = json_pack("{s:o, s:o}", "methods", methods, "fields", fields);
+    if (status == MOTE_OK)
+        *offer = made;
+    else
+        json_decref(made);
+    return status;
+}
+
 mote_status mote_plugin_offer(void *context, int output)
 {
     const mote_plugin_item *const *items;
+    json_t *offer = NULL;
     size_t count;
     mote_status status = mote_plugin_load(context, &items, &count);
+    if (status == MOTE_OK)
+        status = mote_plugin_describe(items, count, &offer);
     if (status != MOTE_OK)
         return status;
-    json_t *methods = json_array(), *fields = json_array();
-    for (size_t i = 0; status == MOTE_OK && i < count; ++i) {
-        if (!items[i]->item ||
-            (items[i]->kind != MOTE_PLUGIN_METHOD && items[i]->kind != MOTE_PLUGIN_FIELD))
-            status = mote_fail(MOTE_EINVAL, "item %zu is neither a method nor a field", i + 1);
-        else if (!same_sizes(items[i]))
-            status =
-                mote_fail(MOTE_EINVAL,
-                          "compiled against headers of another mote with version %d of the "
-                          "contract of methods: compile it again with this mote's headers",
-                          MOTE_CONTRACT);
-        else if (items[i]->kind == MOTE_PLUGIN_METHOD)
-            status = describe_method(i, items[i]->item, methods);
-        else
-            status = describe_field(i, items[i]->item, fields);
-    }
-    if (status != MOTE_OK)
-        return status;
-    json_t *object = json_pack("{s:o, s:o}", "methods", methods, "fields", fields);
-    char *text = json_dumps(object, JSON_COMPACT);
+    char *text = json_dumps(offer, JSON_COMPACT);
     status = mote_child_put(output, text, strlen(text));
     free(text);
-    json_decref(object);
+    json_decref(offer);
     return status;
 }

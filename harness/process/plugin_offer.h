@@ -6,6 +6,7 @@
 #include "core/base/plugin.h"
 #include "core/base/status.h"
 
+#include <jansson.h>
 #include <stddef.h>
 
 /* Loads the library into this process for good. The library owns items[count]. MOTE_EINVAL with
@@ -14,10 +15,15 @@
 mote_status mote_plugin_load(const char *path, const mote_plugin_item *const **items,
                              size_t *count);
 
-/* Work for mote_child_run; context is the path. Loads the library, checks all of its items and
-   sends {"methods": [...], "fields": [...]} as JSON, each item being {"item": index, "name",
-   "summary", "parameters": [{"key", "kind", "minimum", "maximum", "choices", "fallback",
-   "help"}...]}, with numbers as text since some are infinite. MOTE_EINVAL as above. */
+/* Checks items[count] and describes them: {"methods": [...], "fields": [...]}, each item being
+   {"item": index, "name", "summary", "parameters": [{"key", "kind", "minimum", "maximum",
+   "choices", "fallback", "help"}...]}, with numbers as text since some are infinite. The caller
+   decrefs *offer. MOTE_EINVAL: one of them is no valid method or field. */
+mote_status mote_plugin_describe(const mote_plugin_item *const *items, size_t count,
+                                 json_t **offer);
+
+/* Work for mote_child_run; context is the path. Loads the library and sends the description of
+   its items as JSON. Errors of both functions above. */
 mote_status mote_plugin_offer(void *context, int output);
 
 #endif

@@ -160,6 +160,21 @@ static void number_items(size_t asked)
         (void)snprintf(names[i], sizeof names[i], "shaped-%zu-%zu", i + 1, asked + 1);
 }
 
+/* Other items than when it was first asked. */
+static void change_items(size_t *count)
+{
+    if (is("later-fewer"))
+        *count = 1;
+    if (is("later-kind"))
+        items[1] = items[0];
+    if (is("later-size"))
+        items[1].size = 8;
+    if (is("later-name"))
+        fields[1].name = "another";
+    if (is("later-parameters"))
+        methods[0].parameter_count = fields[1].parameter_count = 1;
+}
+
 MOTE_PLUGIN_DECLARE __attribute__((visibility("default"))) const mote_plugin_item *const *
 mote_plugin_items(size_t *count);
 
@@ -176,5 +191,7 @@ const mote_plugin_item *const *mote_plugin_items(size_t *count)
         *count = 0;
     if (is("numbered"))
         number_items(times_asked());
+    if (strncmp(shape, "later-", strlen("later-")) == 0 && times_asked() > 0)
+        change_items(count);
     return is("items-missing") || (is("once") && times_asked() > 0) ? NULL : listed;
 }

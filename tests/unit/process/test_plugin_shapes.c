@@ -108,6 +108,30 @@ TEST(a_library_that_changes_costs_its_cells)
     mote_expect(4, "no method and no field in it", "check field.json --plugin " MOTE_SHAPED);
 }
 
+/* What was planned is not looked for at its number in another library. */
+TEST(a_library_that_is_built_again_during_a_run_is_refused)
+{
+    static const struct {
+        const char *shape, *says;
+    } rows[] = {
+        {"later-fewer", "offers other methods, fields or parameters than when this command"},
+        {"later-kind", "offers other methods, fields or parameters"},
+        {"later-size", "compiled against headers of another mote"},
+        {"later-name", "offers other methods, fields or parameters"},
+        {"later-parameters", "offers other methods, fields or parameters"},
+    };
+    char text[1024];
+    (void)snprintf(text, sizeof text, SCENARIO, FIELD);
+    file_put("field.json", text);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%s", rows[i].shape);
+        set_shape(rows[i].shape);
+        mote_expect(4, rows[i].says, "check field.json --plugin " MOTE_SHAPED);
+        assert_non_null(strstr(said, MOTE_SHAPED ": "));
+        assert_int_equal(folder_remove("asked"), 0);
+    }
+}
+
 /* One library, loaded once, makes a method and a field. */
 TEST(a_field_that_cannot_be_made_is_an_error_of_the_scenario)
 {
