@@ -37,16 +37,19 @@ struct mote_measurement {
 typedef mote_measurement session;
 
 /* Gives two bodies sample poses if the method builds with them. */
-static void add_samples(session *s, mote_engine_setup *setup)
+static mote_status add_samples(session *s, mote_engine_setup *setup)
 {
     const mote_method_choice *choice = s->cell->choice;
     const mote_scenario *scenario = s->cell->subject->scenario;
     if (!scenario || !mote_method_traits(choice->method, choice->values).samples)
-        return;
-    s->samples = mote_sample_poses_create(scenario);
+        return MOTE_OK;
+    const mote_status status = mote_sample_poses_create(scenario, &s->samples);
+    if (status != MOTE_OK)
+        return status;
     mote_sample_poses_bodies(s->samples, scenario, s->body);
     setup->shapes[0] = &s->body[0];
     setup->shapes[1] = &s->body[1];
+    return MOTE_OK;
 }
 
 /* Prepares everything that is charged to no method. */
@@ -58,9 +61,10 @@ static mote_status prepare(session *s)
     setup.step = cell->step;
     setup.seed = mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate);
     setup.clock_ns = mote_clock_cost_ns();
-    add_samples(s, &setup);
     s->ahead = (uint32_t)cell->choice->scene[MOTE_SCENE_AHEAD];
-    const mote_status status = mote_engine_create(&setup, cell->choice, &s->engine);
+    mote_status status = add_samples(s, &setup);
+    if (status == MOTE_OK)
+        status = mote_engine_create(&setup, cell->choice, &s->engine);
     if (status != MOTE_OK)
         return status;
     result->rows = mote_allocate(s->rows, sizeof *result->rows);

@@ -9,8 +9,8 @@
 
 typedef struct mote_sample_poses mote_sample_poses;
 
-/* Cost: eight frames. mote_sample_poses_destroy allows NULL. */
-mote_sample_poses *mote_sample_poses_create(const mote_scenario *scenario);
+/* Cost: eight frames. Errors of mote_scenario_frame. mote_sample_poses_destroy allows NULL. */
+mote_status mote_sample_poses_create(const mote_scenario *scenario, mote_sample_poses **poses);
 void mote_sample_poses_destroy(mote_sample_poses *poses);
 
 /* The scenario's bodies with these samples, which are borrowed. A body with its own samples

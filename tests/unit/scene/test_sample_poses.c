@@ -1,5 +1,7 @@
 /* Sample poses of a scenario's bodies have the shapes of its frames. */
 #include "harness/scene/sample_poses.h"
+#include "tests/support/folder.h"
+#include "tests/support/sheet.h"
 #include "tests/support/test.h"
 
 /* The largest distance of a vertex of the sample from its place in the frame, after undoing the
@@ -21,7 +23,8 @@ TEST(samples_are_shapes_of_frames_evenly_over_the_scenario)
 {
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load("mv", &scenario), MOTE_OK);
-    mote_sample_poses *poses = mote_sample_poses_create(scenario);
+    mote_sample_poses *poses = NULL;
+    assert_int_equal(mote_sample_poses_create(scenario, &poses), MOTE_OK);
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     mote_body body[2];
     mote_sample_poses_bodies(poses, scenario, body);
@@ -54,11 +57,34 @@ TEST(rigid_bodies_have_no_samples)
 {
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load("tt", &scenario), MOTE_OK);
-    mote_sample_poses *poses = mote_sample_poses_create(scenario);
+    mote_sample_poses *poses = NULL;
+    assert_int_equal(mote_sample_poses_create(scenario, &poses), MOTE_OK);
     mote_body body[2];
     mote_sample_poses_bodies(poses, scenario, body);
     assert_true(body[0].sample_count == 0 && body[1].sample_count == 0);
     assert_ptr_equal(body[0].mesh, scenario->body[0].mesh);
     mote_sample_poses_destroy(poses);
+    mote_scenario_destroy(scenario);
+}
+
+/* Beside a body with a field, the positions of the other one are read frame by frame. */
+TEST(samples_say_which_frame_cannot_be_read)
+{
+    mote_scenario *scenario = NULL;
+    mote_sample_poses *poses = NULL;
+    for (int k = 1; k <= 16; ++k) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "f%02d.obj", k);
+        sheet_write_obj(name, k);
+    }
+    file_put("s.json",
+             "{\"purpose\": \"p\", \"frames\": 16, \"ask\": \"distance\", \"bodies\": ["
+             "{\"positions\": \"f01.obj\"}, {\"letter\": \"T\", \"triangles\": 400}]}");
+    assert_int_equal(mote_scenario_load("./s.json", &scenario), MOTE_OK);
+    file_put("f10.obj", "v 0 0 0\n");
+    assert_int_equal(mote_sample_poses_create(scenario, &poses), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), "f10.obj"))
+        fail_msg("%s", mote_error_text());
+    assert_null(poses);
     mote_scenario_destroy(scenario);
 }
