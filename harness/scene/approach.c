@@ -132,11 +132,14 @@ static mote_status solve(approach *a, mote_frame_buffer *buffer, uint32_t k,
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions)
 {
-    if (mote_body_is_given(&scenario->body[1]))
-        return mote_fail(
-            MOTE_EUNSUPPORTED,
-            "only a body with a field or a rigid one can be moved along, and of body "
-            "1 positions are given; exchange the bodies");
+    for (int i = 0; i < 2; ++i) {
+        if (mote_body_is_given(&scenario->body[i]))
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "%s: of body %d positions are given, and a motion is found for "
+                             "bodies with a field and rigid ones only; name one mesh as its "
+                             "\"file\", without \"positions\"",
+                             scenario->path, i);
+    }
     const double smaller =
         fmin(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
     approach a = {.scenario = scenario,

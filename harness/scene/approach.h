@@ -26,7 +26,8 @@ typedef struct mote_approach_plan {
    the resulting centres of body 1: positions[count], absolute. About twenty queries per frame.
    MOTE_EINVAL with frame and reason if the bodies pass without coming that close, if they slide
    along each other at hardly more than that distance and 2,000 queries do not find the first
-   place, or if they must touch but do not cross. */
+   place, or if they must touch but do not cross. MOTE_EUNSUPPORTED: of a body positions are
+   given. */
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions);
 

@@ -232,6 +232,28 @@ TEST(positions_are_refused_by_the_closed_loop_as_such)
     mote_expect(4, "but of body 1 only positions are given", "simulate s.json --method stream");
 }
 
+TEST(positions_of_either_body_are_refused_where_a_motion_is_sought)
+{
+    static const char *const bodies[] = {
+        "{\"positions\": \"f1.obj\"}, {\"file\": \"cube.obj\"}",
+        "{\"file\": \"cube.obj\"}, {\"positions\": \"f1.obj\"}"};
+    file_put("cube.obj", cube);
+    sheet_write_obj("f1.obj", 1);
+    for (int k = 0; k < 2; ++k) {
+        char text[300], says[200];
+        (void)snprintf(
+            text, sizeof text,
+            "{\"purpose\": \"p\", \"frames\": 1, \"ask\": \"distance\", \"bodies\": [%s]}",
+            bodies[k]);
+        (void)snprintf(says, sizeof says,
+                       "mote: s.json: of body %d positions are given, and a motion is found "
+                       "for bodies with a field and rigid ones only; name one mesh as its",
+                       k);
+        file_put("s.json", text);
+        mote_expect(4, says, "approach s.json --gaps 1:0.1 -o x.json");
+    }
+}
+
 /* Reads the frames backwards in a child process, which must not affect its parent's reads. */
 static mote_status read_backwards(void *context, int output)
 {
