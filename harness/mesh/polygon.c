@@ -8,9 +8,13 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* A polygon thinner than this fraction of its length counts as a line: coordinates that went
-   through 32-bit floats are off by 6e-8 of it. */
+/* A polygon thinner than this fraction of its length counts as a line. */
 #define THIN 1e-6
+/* So does one thinner than this fraction of its largest coordinate. Coordinates that went
+   through 32-bit floats, as those of most files of text did, are off by 2^-24 of it, in each of
+   three directions: edges twice sqrt(3) of that apart may cross, and then seem as far apart
+   again. */
+#define ROUNDED (7 * 0x1p-24)
 /* A quadrilateral no thicker than this fraction of its length is flat. */
 #define FLAT 1e-3
 /* A projection in which the polygon covers less than this fraction of its area in the best
@@ -263,11 +267,12 @@ typedef struct areas {
     double total[3]; /* the same with absolute values */
     double best;     /* the largest component */
     double length_squared;
+    size_t farthest; /* the corner with this distance from the first */
 } areas;
 
 static areas measure_areas(const double *xyz, size_t count, double unit)
 {
-    areas sum = {{0}, {0}, 0, 0};
+    areas sum = {{0}, {0}, 0, 0, 0};
     double before[3] = {0};
     for (size_t i = 1; i < count; ++i) {
         double edge[3];
@@ -279,13 +284,41 @@ static areas measure_areas(const double *xyz, size_t count, double unit)
             sum.net[k] += area;
             sum.total[k] += fabs(area);
         }
-        sum.length_squared =
-            fmax(sum.length_squared, edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+        const double squared = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2];
+        if (squared > sum.length_squared) {
+            sum.length_squared = squared;
+            sum.farthest = i;
+        }
         for (int k = 0; k < 3; ++k)
             before[k] = edge[k];
     }
     sum.best = fmax(sum.total[0], fmax(sum.total[1], sum.total[2]));
     return sum;
+}
+
+/* Whether no corner is farther from the line through the first corner and the one farthest from
+   it than rounding may be. */
+static bool is_thin(const double *xyz, size_t count, double unit, const areas *sum)
+{
+    const double *far = xyz + 3 * sum->farthest;
+    double largest = 0, width_squared = 0, along[3];
+    for (int k = 0; k < 3; ++k)
+        along[k] = far[k] * unit - xyz[k] * unit;
+    for (size_t i = 0; i < count; ++i) {
+        double edge[3], cross[3];
+        for (int k = 0; k < 3; ++k) {
+            edge[k] = xyz[3 * i + (size_t)k] * unit - xyz[k] * unit;
+            largest = fmax(largest, fabs(xyz[3 * i + (size_t)k] * unit));
+        }
+        for (int k = 0; k < 3; ++k) {
+            const int u = (k + 1) % 3, v = (k + 2) % 3;
+            cross[k] = along[u] * edge[v] - along[v] * edge[u];
+        }
+        width_squared = fmax(width_squared,
+                             (cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]) /
+                                 sum->length_squared);
+    }
+    return sqrt(width_squared) <= fmax(THIN * sqrt(sum->length_squared), ROUNDED * largest);
 }
 
 /* The axes, starting with the one nearest to the normal. */
@@ -378,7 +411,7 @@ mote_status mote_polygon_triangulate(const double *xyz, size_t count, uint32_t (
     outline_free(&o);
     if (seen != VIEW_CLASH)
         return MOTE_OK;
-    if (sum.best > THIN * sum.length_squared && !(count == 4 && is_skew(xyz, unit, &sum)))
+    if (!is_thin(xyz, count, unit, &sum) && !(count == 4 && is_skew(xyz, unit, &sum)))
         return mote_fail(MOTE_EINVAL,
                          "a face whose edges %u and %u cross or touch; give triangles, or a "
                          "polygon whose edges meet in its corners only",

@@ -15,7 +15,8 @@
    Works on the projection along the axis nearest to the polygon's (Newell) normal, or along
    another axis if the polygon is simple only there; all decisions are exact. Corners on a
    straight edge, repeated corners and edges that double back are allowed; the triangles there
-   have no area either. A polygon thinner than a millionth of its length counts as a line.
+   have no area either. A polygon thinner than a millionth of its length, or
+   than what 32-bit floats of its coordinates resolve, counts as a line.
 
    MOTE_EINVAL: in every projection the polygon crosses or touches itself; the text names two
    edges, and what would be right. Cost O(n log n + n r) typically, where r is the number of

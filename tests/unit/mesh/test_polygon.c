@@ -321,6 +321,54 @@ TEST(polygon_with_parts_of_no_area_keeps_its_area)
     }
 }
 
+/* A strip of a tooth at each corner, 1 long, turned by some angle, far out along all axes; its
+   coordinates are floats. `crossed`: its first and last corner are exchanged. */
+static mote_status strip_at(double offset, double width, int corners, double angle,
+                            bool crossed)
+{
+    double xyz[3 * CORNERS_MAX];
+    uint32_t triangles[CORNERS_MAX][3];
+    const int half = corners / 2;
+    for (int i = 0; i < corners; ++i) {
+        const int at = crossed && (i == 0 || i == corners - 1) ? corners - 1 - i : i;
+        const double x =
+            at < half ? (double)at / (half - 1) : (corners - 0.5 - at) / (half - 1);
+        const double y = at < half ? 0 : width;
+        const double place[3] = {cos(angle) * x - sin(angle) * y,
+                                 sin(angle) * x + cos(angle) * y, 0.3 * x};
+        for (int k = 0; k < 3; ++k)
+            xyz[3 * i + k] = (double)(float)(offset + place[k]);
+    }
+    return mote_polygon_triangulate(xyz, (size_t)corners, triangles);
+}
+
+/* Rounding makes its edges cross. */
+TEST(polygon_thinner_than_rounded_coordinates_is_accepted)
+{
+    static const double offsets[] = {0, 10, 100, 1000, 1e5};
+    for (size_t o = 0; o < sizeof offsets / sizeof offsets[0]; ++o) {
+        const double rounding = fmax(offsets[o], 1) * 0x1p-24;
+        for (int i = 0; i < 400; ++i) {
+            const int corners = 8 + 2 * (i % 5);
+            const double width = rounding * (0.05 + 0.05 * (i / 5));
+            if (strip_at(offsets[o], width, corners, 0.1 * i, false) != MOTE_OK)
+                fail_msg("%g, %d corners, %g wide: %s", offsets[o], corners, width,
+                         mote_error_text());
+        }
+    }
+}
+
+TEST(polygon_that_crosses_wider_than_its_rounding_is_refused)
+{
+    static const double offsets[] = {0, 10, 100, 1000, 1e5};
+    for (size_t o = 0; o < sizeof offsets / sizeof offsets[0]; ++o) {
+        const double width = fmax(offsets[o], 1) * 20 * 0x1p-24;
+        assert_int_equal(strip_at(offsets[o], width, 8, 0.7, true), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), "cross or touch; give triangles"));
+        assert_int_equal(strip_at(offsets[o], width, 8, 0.7, false), MOTE_OK);
+    }
+}
+
 /* A polygon that is not flat is accepted if some view of it is simple; a quadrilateral always
    has one. */
 TEST(polygon_that_is_not_flat_is_seen_along_some_line)
