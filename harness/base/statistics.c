@@ -311,6 +311,8 @@ static mote_confidence resampled(mote_process_figure figure, void *context, size
     const size_t known = drawn_figures(figure, context, processes, random, drawn, values);
     free(drawn);
     gsl_rng_free(random);
+    if (known < RESAMPLES / 2)
+        return (mote_confidence){MOTE_NONE, MOTE_NONE};
     return percentiles(values, known);
 }
 

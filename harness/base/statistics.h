@@ -70,7 +70,8 @@ typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t
 
 /* Interval of a figure of processes. Below MOTE_BOOTSTRAP_REPLICATES processes: the t interval
    of the logarithms of each process's own figure; otherwise: percentiles of 1,000 resamples of
-   the processes, drawn from seed. MOTE_NONE if too few of them give a figure. */
+   the processes, drawn from seed. MOTE_NONE if fewer than two processes, or than half of the
+   resamples, give a figure. */
 mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
                                                  size_t processes, uint64_t seed);
 

@@ -451,6 +451,27 @@ TEST(process_interval_from_ten_on_is_a_bootstrap)
     assert_true(isnan(interval.low) && isnan(interval.high));
 }
 
+/* A figure that the first `count` draws have. */
+static double rare_figure(void *context, const size_t *drawn, size_t count)
+{
+    figures *f = context;
+    (void)drawn;
+    (void)count;
+    return ++f->calls <= f->count ? (double)f->calls : MOTE_NONE;
+}
+
+TEST(process_interval_needs_a_figure_from_half_of_the_draws)
+{
+    static const size_t known[] = {1, 2, 499, 500, 1000};
+    for (size_t i = 0; i < COUNT(known); ++i) {
+        figures f = {.count = known[i]};
+        const mote_confidence interval =
+            mote_statistics_process_interval(rare_figure, &f, MOTE_BOOTSTRAP_REPLICATES, 1);
+        assert_true(isnan(interval.low) == (known[i] < 500));
+        assert_true(isnan(interval.high) == (known[i] < 500));
+    }
+}
+
 TEST(detectable_of_two_and_three_values_is_the_closed_form)
 {
     const double logs[] = {0.1, 0.2, 0.6};
