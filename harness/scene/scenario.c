@@ -171,6 +171,19 @@ const mote_frame *mote_scenario_frame_at(const mote_scenario *scenario,
     return set_frame(scenario, buffer, place, 0);
 }
 
+/* The axis of a rotation by more than a quarter turn. Its symmetric part tells it, all but its
+   sign; twice_sine, which vanishes at half a turn, tells that. */
+static mote_vec3 axis_of(double m[3][3], double cosine, mote_vec3 twice_sine)
+{
+    int k = m[1][1] > m[0][0] ? 1 : 0;
+    k = m[2][2] > m[k][k] ? 2 : k;
+    const mote_vec3 column = mote_vec3_make((m[0][k] + m[k][0]) / 2 - (k == 0 ? cosine : 0),
+                                            (m[1][k] + m[k][1]) / 2 - (k == 1 ? cosine : 0),
+                                            (m[2][k] + m[k][2]) / 2 - (k == 2 ? cosine : 0));
+    const double sign = mote_dot(column, twice_sine) < 0 ? -1 : 1;
+    return mote_scale(column, sign / mote_length(column));
+}
+
 /* The rotation vector of to * from^-1. */
 static mote_vec3 rotation_between(const mote_mat3 *from, const mote_mat3 *to)
 {
@@ -184,6 +197,8 @@ static mote_vec3 rotation_between(const mote_mat3 *from, const mote_mat3 *to)
         mote_vec3_make(m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]);
     const double sine = mote_length(twice_sine) / 2;
     const double cosine = (m[0][0] + m[1][1] + m[2][2] - 1) / 2;
+    if (cosine < 0)
+        return mote_scale(axis_of(m, cosine, twice_sine), atan2(sine, cosine));
     return sine > 0 ? mote_scale(twice_sine, atan2(sine, cosine) / (2 * sine)) : twice_sine;
 }
 

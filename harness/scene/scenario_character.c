@@ -1,11 +1,7 @@
 /* Reads the character of a body and the clip that it plays. */
 #include "harness/scene/scenario_read.h"
 
-#include "harness/base/file.h"
-#include "harness/base/memory.h"
-
 #include <stdlib.h>
-#include <string.h>
 
 /* Clips longer than this are cut: nobody plays one for months. */
 #define SECONDS_MAX 1e7

@@ -22,14 +22,14 @@ static mote_status read_centres(const mote_json *node, const mote_mesh *mesh,
         return mote_json_fail(node, "needs either centres or count, not %s",
                               given.value ? "both" : "neither");
     if (number.value) {
-        int64_t wanted;
+        int64_t wanted = 0;
         mote_status status = mote_json_integer(&number, 1, MOTE_CONTROLS_MAX, &wanted);
         if (status == MOTE_OK)
             status = mote_json_blame(&number, mote_spread(mesh, (uint32_t)wanted, centres));
         *count = (uint32_t)wanted;
         return status;
     }
-    size_t size;
+    size_t size = 0;
     mote_status status = mote_json_array(&given, 1, MOTE_CONTROLS_MAX, &size);
     const mote_vec3 centre = mote_mesh_centre(mesh);
     for (size_t i = 0; i < size && status == MOTE_OK; ++i) {

@@ -154,6 +154,36 @@ TEST(mote_scenario_velocity_absent_follows_from_frames_1_and_2)
     mote_scenario_destroy(s);
 }
 
+/* The sine of half a turn tells no axis. */
+TEST(mote_scenario_velocity_of_half_a_turn_is_about_its_axis)
+{
+    static const double axes[][3] = {{1, 0, 0},  {0, 1, 0}, {0, 0, 1},   {1, 2, 2},
+                                     {-3, 4, 0}, {1, 1, 1}, {-2, -3, 6}, {0, 1, -1}};
+    static const double degrees[] = {180, 179.99999, 150, 100, -180, -135};
+    for (size_t i = 0; i < ROWS_OF(axes) * ROWS_OF(degrees); ++i) {
+        const double *a = axes[i / ROWS_OF(degrees)], turn = degrees[i % ROWS_OF(degrees)];
+        const double radians = turn / 57.29577951308232;
+        char motion[200];
+        mote_scenario *s = NULL;
+        mote_vec3 velocity, spin;
+        (void)snprintf(motion, sizeof motion,
+                       "{\"frame\": 2, \"axis\": [%g, %g, %g], \"degrees\": %.17g}", a[0], a[1],
+                       a[2], turn);
+        test_row("%s", motion);
+        write_changed("{\"frame\": 40, \"axis\": [0, 0, 1], \"degrees\": 60}", motion);
+        assert_int_equal(mote_scenario_load(FILE_NAME, &s), MOTE_OK);
+        mote_scenario_velocity(s, 0, &velocity, &spin);
+        mote_scenario_destroy(s);
+        const mote_vec3 axis = mote_vec3_make(a[0], a[1], a[2]);
+        const mote_vec3 wanted = mote_scale(axis, radians / mote_length(axis));
+        /* Half a turn is the same both ways. */
+        const double off = mote_length(mote_sub(spin, wanted));
+        const double other = mote_length(mote_add(spin, wanted));
+        if (!(off < 1e-7 || (fabs(turn) == 180 && other < 1e-7)))
+            fail_msg("%g %g %g", spin.x, spin.y, spin.z);
+    }
+}
+
 /* An independent FNV-1a over explicit bytes. */
 TEST(mote_scenario_fingerprint_matches_a_hash_of_written_bytes)
 {
