@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD "frame,body,deformation,x,y,z,qw,qx,qy,qz\n"
+#define HEAD "frame,body,deformation,x,y,z,qw,qx,qy,qz"
 #define NUMBERS 8
 
 /* The largest file that is read. */
@@ -20,6 +20,14 @@
 static bool begins_number(const char *c)
 {
     return !isspace((unsigned char)*c);
+}
+
+/* The next line after the end of this one, which may be a line feed, a carriage return and a
+   line feed, or the end of the file; NULL if the line goes on. */
+static const char *end_line(const char *at)
+{
+    at += *at == '\r' && (at[1] == '\n' || at[1] == '\0');
+    return *at == '\n' ? at + 1 : *at == '\0' ? at : NULL;
 }
 
 /* Reads "F,B," and NUMBERS numbers from a line; returns the next line, or NULL if the line is
@@ -40,7 +48,7 @@ static const char *read_row(const char *line, uint32_t frame, uint32_t body,
         if (end == from || !(fabs(numbers[k]) <= (k == 0 ? 1e12 : FAR)))
             return NULL;
     }
-    return *end == '\n' ? end + 1 : NULL;
+    return end_line(end);
 }
 
 /* Makes room for the rows as they come: a scenario may ask for more than its file has. */
@@ -48,10 +56,10 @@ static mote_status read_rows(const char *path, const char *text, mote_bodies *bo
 {
     size_t capacity = 0;
     const size_t head = strlen(HEAD);
-    const char *line = strncmp(text, HEAD, head) == 0 ? text + head : NULL;
+    const char *line = strncmp(text, HEAD, head) == 0 ? end_line(text + head) : NULL;
     if (!line)
-        return mote_fail(MOTE_EINVAL, "%s:1: not the columns of recorded poses; expected %.*s",
-                         path, (int)head - 1, HEAD);
+        return mote_fail(MOTE_EINVAL, "%s:1: not the columns of recorded poses; expected %s",
+                         path, HEAD);
     const size_t rows = (size_t)bodies->frames * bodies->count;
     for (size_t r = 0; r < rows; ++r) {
         double n[NUMBERS];
@@ -113,7 +121,7 @@ mote_status mote_bodies_poses_write(const char *path, const mote_bodies *bodies,
                                     const mote_bodies_record *records, uint32_t frames)
 {
     mote_text text = {0};
-    mote_text_add(&text, HEAD);
+    mote_text_add(&text, HEAD "\n");
     for (size_t r = 0; r < (size_t)frames * bodies->count; ++r) {
         const mote_bodies_record *record = &records[r];
         const mote_vec3 p = mote_scale(record->middle, 1 / bodies->length);

@@ -413,7 +413,7 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
         {POSES ROW_1 "2,1,2,0,1,0,1,0,0,0,7\n", "p.csv:3: not a pose"},
         {POSES ROW_1 "2,1,2,0,1,\n0,1,0,0,0\n", "p.csv:3: not a pose"},
         {POSES ROW_1 "\n2,1,2,0,1,0,1,0,0,0\n", "p.csv:3: not a pose"},
-        {POSES ROW_1 "2,1,2,0,1,0,1,0,0,0", "p.csv:3: not a pose"},
+        {POSES ROW_1 "2,1,2,0,1,0,1,0,0,0\r7", "p.csv:3: not a pose"},
         {POSES ROW_1 ROW_2 "3", "p.csv:4: more rows than 2 frames of 1 bodies"},
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
@@ -434,6 +434,23 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
     assert_non_null(strstr(mote_error_text(), "p.csv:3: not a pose; expected frame 1, body 2"));
     free(many.recorded);
     assert_null(none.recorded);
+}
+
+/* Programs for tables write other line ends, or none after the last row. */
+TEST(poses_may_end_their_lines_otherwise)
+{
+    static const char *const texts[] = {
+        POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0", POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0\r",
+        "frame,body,deformation,x,y,z,qw,qx,qy,qz\r\n1,1,1,0,0,0,1,0,0,0\r\n"
+        "2,1,2,0,1,0,-0.6,0,0.8,0\r\n"};
+    for (size_t i = 0; i < ROWS_OF(texts); ++i) {
+        mote_bodies bodies;
+        mote_bodies_path path;
+        test_row("%s", texts[i]);
+        assert_int_equal(read_poses(texts[i], 2, &bodies, &path), MOTE_OK);
+        assert_true(path.velocity.y == 2);
+        free(bodies.recorded);
+    }
 }
 
 /* A path leads from the first frame to the second: here by L along y, and about y by
