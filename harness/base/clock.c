@@ -14,6 +14,11 @@ uint64_t mote_clock_ns(void)
     return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
 }
 
+double mote_clock_seconds(void)
+{
+    return 1e-9 * (double)mote_clock_ns();
+}
+
 uint64_t mote_clock_cost_ns(void)
 {
     double costs[READINGS];

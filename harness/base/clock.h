@@ -7,6 +7,9 @@
 /* Monotonic, nanoseconds. */
 uint64_t mote_clock_ns(void);
 
+/* The same in seconds: for deadlines and what a person reads. */
+double mote_clock_seconds(void);
+
 /* How much reading the clock adds to a measured time: the median of many readings. */
 uint64_t mote_clock_cost_ns(void);
 

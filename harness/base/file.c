@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -301,7 +302,7 @@ char *mote_path_beside(const char *file, const char *name)
 bool mote_name_ends(const char *name, const char *ending)
 {
     const size_t length = strlen(name), size = strlen(ending);
-    return length > size && strcmp(name + length - size, ending) == 0;
+    return length > size && strcasecmp(name + length - size, ending) == 0;
 }
 
 void mote_text_add(mote_text *text, const char *format, ...)

@@ -56,7 +56,8 @@ char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
    unless absolute. The caller frees it. */
 char *mote_path_beside(const char *file, const char *name);
 
-/* Whether a name is longer than this ending and ends with it: mote_name_ends(name, ".json"). */
+/* Whether a name is longer than this ending and ends with it, in capitals or not:
+   mote_name_ends(name, ".json"). */
 bool mote_name_ends(const char *name, const char *ending);
 
 /* A growing text with a final 0 byte. Zero-initialise: data is NULL until something is added.

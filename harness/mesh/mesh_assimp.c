@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX])
 {
@@ -147,8 +146,7 @@ static mote_status fail_as_assimp_says(const char *path)
 /* assimp takes a glTF file for a binary one by its name alone. */
 static mote_status check_name(const char *path, const mote_gltf *gltf)
 {
-    const char *ending = strrchr(path, '.');
-    const bool says_binary = ending && strcasecmp(ending, ".glb") == 0;
+    const bool says_binary = mote_name_ends(path, ".glb");
     if (gltf->is_binary == says_binary)
         return MOTE_OK;
     return mote_fail(MOTE_EINVAL, "%s: glTF, and %s; give it a name that ends in %s", path,

@@ -287,10 +287,9 @@ mote_status mote_soup_check_encoding(const char *path, const char *text, size_t 
 
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size)
 {
-    const char *ending = strrchr(path, '.');
-    if (ending && strcasecmp(ending, ".ply") == 0)
+    if (mote_name_ends(path, ".ply"))
         return check_ply(path, text, size);
-    if (ending && strcasecmp(ending, ".stl") == 0)
+    if (mote_name_ends(path, ".stl"))
         return check_stl(path, text, size);
     return MOTE_OK;
 }

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -24,13 +23,6 @@ typedef struct header {
     uint64_t vertex_count, triangle_count;
     mote_import import;
 } header;
-
-static bool has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path);
-    const size_t end = strlen(ending);
-    return length > end && strcasecmp(path + length - end, ending) == 0;
-}
 
 /* Reads a format that we parse ourselves. */
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
@@ -47,12 +39,12 @@ static mote_status read_text(const char *path, const char *text, size_t size, bo
 
 static bool is_off_file(const char *path)
 {
-    return has_ending(path, ".off");
+    return mote_name_ends(path, ".off");
 }
 
 static bool is_read_by_us(const char *path)
 {
-    return is_off_file(path) || has_ending(path, ".obj");
+    return is_off_file(path) || mote_name_ends(path, ".obj");
 }
 
 static mote_status read_soup(const char *path, mote_soup *soup)
@@ -236,7 +228,7 @@ mote_status mote_import_run_child(const char *path, mote_child_work work, char *
     if (status != MOTE_OK && strncmp(mote_error_text(), reader, strlen(reader)) == 0)
         status = mote_fail(status, "%s; give %s", mote_error_text(),
                            is_read_by_us(path) ? "triangles, or fewer of them"
-                                               : "the mesh in OBJ or OFF");
+                                               : "the mesh in OBJ");
     free(reader);
     return status;
 }

@@ -2,6 +2,7 @@
 
 #include "harness/process/confine.h"
 #include "harness/process/spawn.h"
+#include "harness/base/clock.h"
 #include "harness/base/memory.h"
 
 #include <errno.h>
@@ -14,7 +15,6 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 /* How often a waiting parent checks for a signal that asked it to stop. */
@@ -124,13 +124,6 @@ static _Noreturn void be_child(mote_child_work work, void *context,
     say_last_words(status, status == MOTE_OK ? "" : mote_error_text());
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 mote_status mote_child_start(mote_child_work work, void *context, mote_child_limits limits,
                              mote_child *child)
 {
@@ -154,7 +147,7 @@ mote_status mote_child_start(mote_child_work work, void *context, mote_child_lim
     }
     child->pid = pid;
     child->input = ends[0];
-    child->deadline = limits.seconds > 0 ? seconds_now() + limits.seconds : 0;
+    child->deadline = limits.seconds > 0 ? mote_clock_seconds() + limits.seconds : 0;
     child->limit = limits.output_bytes + sizeof(final_words);
     return MOTE_OK;
 }
@@ -241,7 +234,7 @@ void mote_child_release(mote_child *child)
 
 static bool is_late(const mote_child *child)
 {
-    return child->deadline > 0 && seconds_now() > child->deadline;
+    return child->deadline > 0 && mote_clock_seconds() > child->deadline;
 }
 
 /* How long one poll may wait: until the next deadline or the next check for a signal. */
@@ -249,7 +242,7 @@ static int patience_ms(const mote_child *children, size_t count)
 {
     double seconds = POLL_MS * 1e-3;
     for (size_t i = 0; i < count; ++i) {
-        double left = children[i].deadline - seconds_now();
+        double left = children[i].deadline - mote_clock_seconds();
         if (children[i].pid > 0 && children[i].deadline > 0 && left < seconds)
             seconds = left > 0 ? left : 0;
     }

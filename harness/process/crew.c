@@ -1,7 +1,6 @@
-#define _DEFAULT_SOURCE /* clock_gettime */
 #include "harness/process/crew.h"
 
-#include <time.h>
+#include "harness/base/clock.h"
 
 /* The processes that run at the same time. */
 typedef struct places {
@@ -11,20 +10,13 @@ typedef struct places {
     uint32_t busy;
 } places;
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static mote_status start_task(const mote_crew *crew, places *p, size_t task)
 {
     size_t place = 0;
     while (p->children[place].pid > 0)
         ++place;
     p->tasks[place] = task;
-    p->starts[place] = seconds_now();
+    p->starts[place] = mote_clock_seconds();
     const mote_status status = crew->start(crew->context, task, &p->children[place]);
     p->busy += p->children[place].pid > 0 ? 1 : 0;
     return status;
@@ -43,7 +35,7 @@ static mote_status finish_task(const mote_crew *crew, places *p)
     }
     --p->busy;
     const mote_status status = crew->finish(crew->context, p->tasks[place], &p->children[place],
-                                            seconds_now() - p->starts[place]);
+                                            mote_clock_seconds() - p->starts[place]);
     mote_child_release(&p->children[place]);
     return status;
 }

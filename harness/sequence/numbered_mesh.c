@@ -4,28 +4,16 @@
 #include "harness/base/memory.h"
 #include "harness/mesh/import_child.h"
 #include "harness/sequence/frame_file.h"
-#include "harness/process/child.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
-#define MEMORY_BYTES ((size_t)128 << 20) /* plus 60 times the file, as mote_mesh_import */
-#define SECONDS 4.0                      /* plus one for every 8 MB of the file */
 
 typedef struct header {
     uint64_t file_vertices, vertex_count, triangle_count, topology;
     mote_import import;
 } header;
-
-static bool is_ply(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && strcasecmp(path + length - 4, ".ply") == 0;
-}
 
 /* Reads the triangles, and the hash of the faces they came from. */
 static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file *file)
@@ -35,7 +23,7 @@ static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file 
     mote_status status = mote_file_read(path, FILE_LIMIT, &data, &size);
     if (status != MOTE_OK)
         return status;
-    if (is_ply(path)) {
+    if (mote_name_ends(path, ".ply")) {
         status = mote_frame_file_read_ply(path, data, size, file, soup);
     } else {
         status = mote_soup_check_encoding(path, data, size);
@@ -65,6 +53,7 @@ static mote_status put(int output, const header *head, const mote_soup *soup,
 static mote_status read_in_child(void *context, int output)
 {
     const char *path = context;
+    mote_import_begin_child();
     mote_soup soup = {0};
     mote_frame_file file = {0};
     header head;
@@ -149,26 +138,16 @@ static mote_status make(const char *path, const char *data, size_t size,
 
 mote_status mote_numbered_mesh_read(const char *path, mote_numbered_mesh *made)
 {
-    struct stat info;
-    if (!is_ply(path) && !mote_name_ends(path, ".obj") && !mote_name_ends(path, ".OBJ"))
+    if (!mote_name_ends(path, ".ply") && !mote_name_ends(path, ".obj"))
         return mote_fail(MOTE_EINVAL,
                          "%s: neither OBJ nor PLY; give a mesh with positions frame by "
                          "frame in one of these",
                          path);
-    if (stat(path, &info) != 0)
-        return mote_fail(MOTE_EIO, "%s: %s; name a mesh file", path, strerror(errno));
-    const size_t size = (size_t)info.st_size;
-    const mote_child_limits limits = {.seconds = SECONDS + (double)size / 8e6,
-                                      .memory_bytes = MEMORY_BYTES + 60 * size,
-                                      .output_bytes = MEMORY_BYTES + 60 * size,
-                                      .confined = true};
     char *output = NULL;
-    size_t got = 0;
-    /* The child only reads the name. */
-    mote_status status =
-        mote_child_run(path, read_in_child, (void *)(uintptr_t)path, limits, &output, &got);
+    size_t size = 0;
+    mote_status status = mote_import_run_child(path, read_in_child, &output, &size);
     if (status == MOTE_OK)
-        status = make(path, output, got, made);
+        status = make(path, output, size, made);
     free(output);
     return status;
 }

@@ -1,10 +1,11 @@
 #include "harness/sequence/point_cache.h"
 
+#include "harness/base/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stddef.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -101,8 +102,7 @@ static mote_status read_header(const char *path, int file, mote_point_cache *cac
 {
     unsigned char header[MOTE_POINT_CACHE_HEADER] = {0};
     struct stat info;
-    const size_t length = strlen(path);
-    const bool is_mdd = length > 4 && strcasecmp(path + length - 4, ".mdd") == 0;
+    const bool is_mdd = mote_name_ends(path, ".mdd");
     const size_t header_size = is_mdd ? MDD_HEADER : MOTE_POINT_CACHE_HEADER;
     if (fstat(file, &info) != 0)
         return mote_fail(MOTE_EIO, "%s: %s; name a point cache", path, strerror(errno));

@@ -9,21 +9,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #define DIGITS_MAX 15
 #define FAR 1e9 /* of L */
 
-static bool has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), end = strlen(ending);
-    return length > end && strcasecmp(path + length - end, ending) == 0;
-}
-
 bool mote_sequence_is_cache(const char *path)
 {
-    return has_ending(path, ".pc2") || has_ending(path, ".mdd");
+    return mote_name_ends(path, ".pc2") || mote_name_ends(path, ".mdd");
 }
 
 /* Finds the number in a file's name. */

@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "harness/sequence/sequence_reader.h"
 
+#include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/sequence/frame_file.h"
@@ -14,10 +15,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
@@ -86,12 +85,6 @@ typedef struct server {
     unsigned char *bytes; /* buffer for a frame of the cache */
 } server;
 
-static bool is_ply(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && strcasecmp(path + length - 4, ".ply") == 0;
-}
-
 static mote_status read_file(const server *s, uint32_t frame, reply *said)
 {
     mote_frame_file file = {.xyz = s->xyz, .room = s->sequence->file_vertices};
@@ -99,8 +92,9 @@ static mote_status read_file(const server *s, uint32_t frame, reply *said)
     size_t size;
     mote_status status = mote_file_read(path, FILE_LIMIT, &data, &size);
     if (status == MOTE_OK)
-        status = is_ply(path) ? mote_frame_file_read_ply(path, data, size, &file, NULL)
-                              : mote_frame_file_read_obj(path, data, &file);
+        status = mote_name_ends(path, ".ply")
+                     ? mote_frame_file_read_ply(path, data, size, &file, NULL)
+                     : mote_frame_file_read_obj(path, data, &file);
     said->count = file.count;
     said->topology = file.topology;
     free(path);
@@ -181,19 +175,12 @@ static mote_status start(mote_sequence_reader *r)
     return status;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Waits for the child's reply; distinguishes it from the child's end, including a crash. */
 static mote_status wait_for(mote_sequence_reader *r, reply *said)
 {
     const double deadline =
-        seconds_now() + SECONDS + r->sequence->file_vertices / VERTICES_A_SECOND;
-    while (seconds_now() < deadline) {
+        mote_clock_seconds() + SECONDS + r->sequence->file_vertices / VERTICES_A_SECOND;
+    while (mote_clock_seconds() < deadline) {
         struct pollfd watch = {.fd = r->socket, .events = POLLIN};
         const int ready = poll(&watch, 1, POLL_MS);
         if (mote_child_stop_asked())

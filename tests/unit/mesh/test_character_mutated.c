@@ -1,6 +1,7 @@
 /* Damaged files of characters: each is read as a character whose poses are finite, or refused
    in one line, soon. MOTE_FULL=1 tries 10,000 files. */
 #include "core/base/random.h"
+#include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/mesh/character.h"
 #include "tests/support/bar.h"
@@ -9,7 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Room for what a mutation inserts. */
 #define GROWTH 256
@@ -94,21 +94,14 @@ static double pose_sum(const mote_character *c)
     return sum;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
 /* 1 where the file is read. */
 static int try_file(const char *path)
 {
     mote_character *c = NULL;
-    const double start = seconds_now();
+    const double start = mote_clock_seconds();
     const mote_status status = mote_character_import_file(path, &c, NULL);
-    if (seconds_now() - start > 20)
-        fail_msg("%s took %g s", path, seconds_now() - start);
+    if (mote_clock_seconds() - start > 20)
+        fail_msg("%s took %g s", path, mote_clock_seconds() - start);
     if (status != MOTE_OK) {
         assert_null(c);
         if (strncmp(mote_error_text(), path, strlen(path)) != 0 ||

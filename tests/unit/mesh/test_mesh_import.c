@@ -1,4 +1,5 @@
 #include "core/base/random.h"
+#include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/mesh/mesh_soup.h"
@@ -13,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* A tetrahedron in several formats. */
@@ -299,21 +299,14 @@ static const bad_text bad_texts[] = {
     {"c.obj", "v 0 0 \\", "c.obj:1: a vertex without three numbers"},
 };
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 TEST(mote_mesh_import_bad_file_names_the_place)
 {
     for (size_t i = 0; i < sizeof bad_texts / sizeof bad_texts[0]; ++i) {
         const bad_text *bad = &bad_texts[i];
         mote_mesh *mesh = NULL;
-        const double start = seconds_now();
+        const double start = mote_clock_seconds();
         mote_status status = import_text(bad->name, bad->text, strlen(bad->text), &mesh, NULL);
-        assert_true(seconds_now() - start < 5);
+        assert_true(mote_clock_seconds() - start < 5);
         assert_null(mesh);
         const mote_status right = strstr(bad->says, "crashed") ? MOTE_EIO : MOTE_EINVAL;
         if (status != right || !strstr(mote_error_text(), bad->says) ||
@@ -385,7 +378,7 @@ TEST(mote_mesh_import_mutated_files_are_read_or_refused)
         const size_t kind = i % 8 < 4 ? 0 : (size_t)(i % 4);
         const size_t size = mutate(kinds[kind].text, &random, text);
         mote_mesh *mesh = NULL;
-        const double start = seconds_now();
+        const double start = mote_clock_seconds();
         if (import_text(kinds[kind].name, text, size, &mesh, NULL) == MOTE_OK) {
             assert_true(isfinite(mesh->diagonal) && mesh->diagonal > 0);
             assert_true(mesh->triangle_count <= 16);
@@ -395,7 +388,7 @@ TEST(mote_mesh_import_mutated_files_are_read_or_refused)
             assert_null(mesh);
             assert_null(strchr(mote_error_text(), '\n'));
         }
-        assert_true(seconds_now() - start < 5);
+        assert_true(mote_clock_seconds() - start < 5);
     }
     assert_in_range(read, 1, 999);
 }

@@ -1,5 +1,6 @@
 /* Bad input at the command line: an error within 5 seconds and 1 GiB, exit 4, one line that
    names the file. Input that is merely unusual is read. */
+#include "harness/base/clock.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "tests/support/folder.h"
@@ -12,7 +13,6 @@
 #include <stdint.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #define SECONDS 5.0
 #define BYTES ((rlim_t)1 << 30)
@@ -144,13 +144,6 @@ static const input inputs[] = {
     {"mark.obj", "\xef\xbb\xbf" OBJ, 0, "triangles           1"},
 };
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Runs `mote LINE` with a limit on its memory, and checks status, text and time. */
 static void expect(const char *line, int status, const char *says)
 {
@@ -160,11 +153,11 @@ static void expect(const char *line, int status, const char *says)
     limit.rlim_max = before.rlim_max;
     if (LIMITED)
         assert_int_equal(setrlimit(RLIMIT_AS, &limit), 0);
-    const double start = seconds_now();
+    const double start = mote_clock_seconds();
     const pid_t pid = program_start(line, "said");
     assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
     const int ended = program_wait(pid);
-    const double took = seconds_now() - start;
+    const double took = mote_clock_seconds() - start;
     program_read("said", said, sizeof said);
     if (ended != status || !strstr(said, says))
         fail_msg("mote %s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says,
@@ -269,9 +262,9 @@ TEST(mote_mesh_import_truncated_anywhere_is_read_or_refused)
         for (size_t size = 0; size < whole; ++size) {
             mote_mesh *mesh = NULL;
             file_write(good[i].file, good[i].text, size);
-            const double start = seconds_now();
+            const double start = mote_clock_seconds();
             const mote_status status = mote_mesh_import(good[i].file, &mesh, NULL);
-            assert_true(seconds_now() - start < SECONDS);
+            assert_true(mote_clock_seconds() - start < SECONDS);
             if (status == MOTE_OK && whole - size > good[i].most)
                 fail_msg("%zu of %zu bytes of %s are read", size, whole, good[i].file);
             if (status != MOTE_OK && !strstr(mote_error_text(), good[i].file))

@@ -43,6 +43,9 @@ TEST(numbered_mesh_of_a_wrong_file_is_refused)
         assert_null(made.mesh);
     }
     mote_numbered_mesh made = {0};
+    assert_int_equal(mkfifo("pipe.obj", 0600), 0);
+    assert_int_equal(mote_numbered_mesh_read("pipe.obj", &made), MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), "pipe.obj: not a regular file; name a mesh file");
     file_write("z.obj", "v 0 0 0\n\0v 1 0 0\n", 18);
     assert_int_equal(mote_numbered_mesh_read("z.obj", &made), MOTE_EINVAL);
     assert_string_equal(mote_error_text(), "z.obj: a zero byte at 8; give text");
@@ -53,9 +56,9 @@ TEST(numbered_mesh_of_a_wrong_file_is_refused)
 TEST(numbered_mesh_remembers_the_numbers_of_its_file)
 {
     mote_numbered_mesh made = {0};
-    file_put("m.OBJ", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 8 8 8\nv 0 -1 0\nv 0 0 1\n"
+    file_put("m.Obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 8 8 8\nv 0 -1 0\nv 0 0 1\n"
                       "f 2 3 4\nf 2 3 6\nf 2 3 7\n");
-    assert_int_equal(mote_numbered_mesh_read("m.OBJ", &made), MOTE_OK);
+    assert_int_equal(mote_numbered_mesh_read("m.Obj", &made), MOTE_OK);
     static const double places[7][3] = {{9, 9, 9}, {0, 0, 0},  {1, 0, 0}, {0, 1, 0},
                                         {8, 8, 8}, {0, -1, 0}, {0, 0, 1}};
     assert_int_equal(made.file_vertices, 7);
