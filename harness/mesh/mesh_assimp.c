@@ -120,11 +120,27 @@ static mote_status add_node(const char *path, const struct aiScene *scene,
     return status;
 }
 
-/* assimp drops faces with an index out of range and reports them in its log only. */
-static void note_dropped(const char *message, char *dropped)
+typedef enum dropped { DROPPED_NONE, DROPPED_FACES, DROPPED_CORNERS } dropped;
+
+/* assimp drops faces with an index out of range, and corners that make no whole triangle, and
+   reports it in its log only. Corners that make no whole line are none of a surface. */
+static void note_dropped(const char *message, char *what)
 {
-    if (strstr(message, "out-of-range") || strstr(message, "dropped"))
-        *dropped = 1;
+    if (strstr(message, "out-of-range"))
+        *what = DROPPED_FACES;
+    else if (strstr(message, "compatible with the TRIANGLES mode"))
+        *what = DROPPED_CORNERS;
+}
+
+static mote_status refuse_dropped(const char *path, char what)
+{
+    if (what == DROPPED_FACES)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: a face with an index out of range; use those of vertices", path);
+    return mote_fail(MOTE_EINVAL,
+                     "%s: triangles whose corners cannot be divided by three; give three for "
+                     "each triangle",
+                     path);
 }
 
 static mote_status fail_as_assimp_says(const char *path)
@@ -174,11 +190,11 @@ static mote_status check_gltf(const char *path, bool moves)
 
 mote_status mote_assimp_open(const char *path, bool moves, const struct aiScene **scene)
 {
-    char dropped = 0;
+    char what = DROPPED_NONE;
     mote_status status = check_gltf(path, moves);
     if (status != MOTE_OK)
         return status;
-    const struct aiLogStream log = {note_dropped, &dropped};
+    const struct aiLogStream log = {note_dropped, &what};
     aiAttachLogStream(&log);
     /* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp
        makes wrong triangles if a face is concave and not flat. */
@@ -189,9 +205,8 @@ mote_status mote_assimp_open(const char *path, bool moves, const struct aiScene 
     aiDetachLogStream(&log);
     if (!opened)
         return fail_as_assimp_says(path);
-    if (dropped)
-        status = mote_fail(
-            MOTE_EINVAL, "%s: a face with an index out of range; use those of vertices", path);
+    if (what != DROPPED_NONE)
+        status = refuse_dropped(path, what);
     else if (!opened->mRootNode || opened->mNumMeshes == 0)
         status = mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
     if (status == MOTE_OK)

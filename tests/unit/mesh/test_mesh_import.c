@@ -171,6 +171,37 @@ TEST(mote_mesh_import_binary_stl_beginning_with_solid_is_read)
     mote_mesh_destroy(mesh);
 }
 
+/* gltf_text with the first `from` replaced, and its last accessor followed by `accessor`. */
+static mote_status import_changed(const char *from, const char *to, const char *accessor,
+                                  mote_mesh **mesh)
+{
+    const char *at = strstr(gltf_text, from), *views = strstr(gltf_text, "], \"bufferViews\"");
+    char *text =
+        mote_format("%.*s%s%.*s%s%s", (int)(at - gltf_text), gltf_text, to,
+                    (int)(views - at - (long)strlen(from)), at + strlen(from), accessor, views);
+    const mote_status status = import_text("d.gltf", text, strlen(text), mesh, NULL);
+    free(text);
+    return status;
+}
+
+/* assimp drops corners that are left over, and says so in its log. */
+TEST(gltf_of_corners_left_over_is_refused_where_they_are_of_triangles)
+{
+    mote_mesh *mesh = NULL;
+    assert_int_equal(import_changed(", \"indices\": 1", "", "", &mesh), MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), "d.gltf: triangles whose corners cannot be divided "
+                                           "by three; give three for each triangle");
+    assert_int_equal(
+        import_changed("\"indices\": 1}",
+                       "\"indices\": 1}, {\"attributes\": {\"POSITION\": 2}, \"mode\": 1}",
+                       ", {\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
+                       "\"VEC3\", \"min\": [0, 0, 0], \"max\": [1, 1, 0]}",
+                       &mesh),
+        MOTE_OK);
+    assert_int_equal(mesh->triangle_count, 4);
+    mote_mesh_destroy(mesh);
+}
+
 TEST(mote_soup_weld_equal_places_become_one)
 {
     mote_soup soup = {0};
