@@ -91,7 +91,7 @@ static void print_lines(const char *path, const mote_mesh *mesh, const mote_impo
     (void)printf("coordinates         %s\n",
                  import->single_precision ? "32-bit floats (assimp's)" : "64-bit floats");
     if (import->welded + import->collapsed + import->unused > 0)
-        (void)printf("cleaned             %zu vertices welded, %zu faces collapsed by it, %zu "
+        (void)printf("cleaned             %zu vertices welded, %zu faces collapsed, %zu "
                      "vertices in no face\n",
                      import->welded, import->collapsed, import->unused);
     mote_character_facts_print(path);

@@ -32,9 +32,11 @@ static mote_status read_text(const char *path, const char *text, size_t size, bo
     if (status == MOTE_OK)
         status = is_off ? mote_soup_read_off(path, text, size, soup)
                         : mote_soup_read_obj(path, text, soup);
-    if (status == MOTE_OK)
-        mote_soup_compact(soup);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    mote_soup_drop_collapsed(soup);
+    mote_soup_compact(soup);
+    return mote_soup_refuse_collapsed(path, soup);
 }
 
 static bool is_off_file(const char *path)
@@ -64,14 +66,10 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     if (status != MOTE_OK || is_read_by_us(path))
         return status;
     status = mote_soup_read_assimp(path, soup);
-    if (status == MOTE_OK)
-        mote_soup_weld(soup);
-    if (status == MOTE_OK && soup->triangle_count == 0)
-        status = mote_fail(MOTE_EINVAL,
-                           "%s: each of its %zu faces has two corners at one place; give "
-                           "triangles with three places",
-                           path, soup->collapsed);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    mote_soup_weld(soup);
+    return mote_soup_refuse_collapsed(path, soup);
 }
 
 /* Discards output: assimp prints its failed assertions; our own text says what is wrong. */
@@ -226,9 +224,9 @@ mote_status mote_import_run_child(const char *path, mote_child_work work, char *
     mote_status status =
         mote_child_run(reader, work, (void *)(uintptr_t)path, limits, output, size);
     if (status != MOTE_OK && strncmp(mote_error_text(), reader, strlen(reader)) == 0)
-        status = mote_fail(status, "%s; give %s", mote_error_text(),
-                           is_read_by_us(path) ? "triangles, or fewer of them"
-                                               : "the mesh in OBJ");
+        status =
+            mote_fail(status, "%s; give %s", mote_error_text(),
+                      is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ");
     free(reader);
     return status;
 }

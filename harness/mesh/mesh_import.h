@@ -9,7 +9,7 @@
 typedef struct mote_import {
     bool single_precision; /* coordinates went through 32-bit floats (all but OBJ and OFF) */
     size_t welded;         /* vertices welded to another one at the same place */
-    size_t collapsed;      /* faces left out: two of their vertices at one place */
+    size_t collapsed;      /* triangles left out: a vertex twice, or two at one place */
     size_t unused;         /* vertices left out: not in any face */
     mote_split split;      /* edges of more than two faces, cut apart */
 } mote_import;

@@ -40,11 +40,17 @@ static int compare_corners(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
+/* Exporters write a vertex twice in a row where they made two of one: the triangles there
+   collapse. A vertex at two places of a face joins two faces, or a hole. */
 static mote_status check_corners(const uint32_t *corners, size_t count, uint32_t *sorted)
 {
-    memcpy(sorted, corners, count * sizeof *sorted);
-    qsort(sorted, count, sizeof *sorted, compare_corners);
-    for (size_t i = 1; i < count; ++i) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (corners[i] != corners[i + 1 < count ? i + 1 : 0])
+            sorted[kept++] = corners[i];
+    }
+    qsort(sorted, kept, sizeof *sorted, compare_corners);
+    for (size_t i = 1; i < kept; ++i) {
         if (sorted[i - 1] == sorted[i])
             return mote_fail(MOTE_EINVAL,
                              "a face with a vertex twice; give different ones, or triangles "
@@ -129,25 +135,34 @@ static void find_first(const mote_soup *soup, uint32_t *slots, size_t slot_count
 
 static void apply_map(mote_soup *soup, const uint32_t *map)
 {
-    size_t kept = 0;
     for (uint32_t v = 0; v < soup->vertex_count; ++v)
         soup->welded += map[v] != v;
+    for (size_t i = 0; i < 3 * soup->triangle_count; ++i)
+        soup->indices[i] = map[soup->indices[i]];
+}
+
+void mote_soup_drop_collapsed(mote_soup *soup)
+{
+    size_t kept = 0;
     for (size_t t = 0; t < soup->triangle_count; ++t) {
-        uint32_t *from = soup->indices + 3 * t;
-        const uint32_t a = map[from[0]];
-        const uint32_t b = map[from[1]];
-        const uint32_t c = map[from[2]];
-        if (a == b || b == c || c == a) {
-            ++soup->collapsed;
+        const uint32_t *from = soup->indices + 3 * t;
+        if (from[0] == from[1] || from[1] == from[2] || from[2] == from[0])
             continue;
-        }
         soup->lines[kept] = soup->lines[t];
-        uint32_t *to = soup->indices + 3 * kept++;
-        to[0] = a;
-        to[1] = b;
-        to[2] = c;
+        memmove(soup->indices + 3 * kept++, from, 3 * sizeof *from);
     }
+    soup->collapsed += soup->triangle_count - kept;
     soup->triangle_count = kept;
+}
+
+mote_status mote_soup_refuse_collapsed(const char *path, const mote_soup *soup)
+{
+    return soup->triangle_count > 0
+               ? MOTE_OK
+               : mote_fail(MOTE_EINVAL,
+                           "%s: each of its %zu faces has two corners at one place; give "
+                           "triangles with three places",
+                           path, soup->collapsed);
 }
 
 void mote_soup_weld(mote_soup *soup)
@@ -161,6 +176,7 @@ void mote_soup_weld(mote_soup *soup)
     find_first(soup, slots, slot_count, map);
     const size_t welded_before = soup->welded;
     apply_map(soup, map);
+    mote_soup_drop_collapsed(soup);
     free(slots);
     free(map);
     mote_soup_compact(soup);

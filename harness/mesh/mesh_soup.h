@@ -18,7 +18,7 @@ typedef struct mote_soup {
     size_t vertex_capacity, index_capacity, line_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */
     size_t welded;         /* vertices welded to another one at the same place */
-    size_t collapsed;      /* faces that had two equal vertices after welding, left out */
+    size_t collapsed;      /* triangles with a vertex twice, perhaps after welding, left out */
     size_t unused;         /* vertices not in any face, left out */
 } mote_soup;
 
@@ -27,10 +27,17 @@ mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
 void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
 
 /* Adds a polygon as triangles, convex or not. corners: count >= 3 vertices of the soup, in
-   order around it. MOTE_EINVAL: a vertex occurs twice, or mote_polygon_triangulate refuses the
-   polygon; the text says what is wrong and what would be right, but not where. */
+   order around it. A vertex that follows itself makes triangles that collapse. MOTE_EINVAL: a
+   vertex occurs twice elsewhere, or mote_polygon_triangulate refuses the polygon; the text says
+   what is wrong and what would be right, but not where. */
 mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count);
 void mote_soup_free(mote_soup *soup);
+
+/* Removes the triangles with a vertex twice, and counts them. */
+void mote_soup_drop_collapsed(mote_soup *soup);
+
+/* MOTE_EINVAL if this has left no triangle. */
+mote_status mote_soup_refuse_collapsed(const char *path, const mote_soup *soup);
 
 /* Merges vertices with equal coordinates and kinds, and removes the faces that collapse.
    Expected cost O(v + t). */

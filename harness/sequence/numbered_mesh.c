@@ -33,7 +33,10 @@ static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file 
             status = mote_frame_file_read_obj(path, data, file);
     }
     free(data);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    mote_soup_drop_collapsed(soup);
+    return mote_soup_refuse_collapsed(path, soup);
 }
 
 static mote_status put(int output, const header *head, const mote_soup *soup,
@@ -74,6 +77,7 @@ static mote_status read_in_child(void *context, int output)
     head.topology = file.topology;
     head.vertex_count = soup.vertex_count;
     head.triangle_count = soup.triangle_count;
+    head.import.collapsed = soup.collapsed;
     head.import.unused = soup.unused;
     status = put(output, &head, &soup, file_vertex);
     mote_soup_free(&soup);

@@ -173,7 +173,7 @@ static const good_line good_lines[] = {
     {"--allow . check s.json", {"4 frames"}},
     {"mesh two.obj",
      {"components          2", "cleaned             0 vertices welded, 0 faces "
-                               "collapsed by it, 1 vertices in no face"}},
+                               "collapsed, 1 vertices in no face"}},
     {"mesh two.obj --json", {"\"components\": 2", "\"unused\": 1", "\"part_labels\""}},
     {"mesh t.stl", {"32-bit floats"}},
     {"distance t.stl a.obj", {"fcl-aabb: distance 0, contact", "t.stl was read in 32-bit"}},

@@ -188,7 +188,7 @@ TEST(assimp_mesh_with_a_wrong_number_is_refused_with_its_place)
         {{0, INFINITY, 0}, 2, "", "m.x: vertex 1 is not finite; give finite numbers"},
         {{0, 0, -INFINITY}, 2, "a\nb. \r\n", "m.x: vertex 1 of mesh a b is not finite"},
         {{1, 0, 0}, 4, "Cup", "m.x: face 0 has vertex 4 of 4; use 0 to 3"},
-        {{1, 0, 0}, 1, "Cup", "m.x: face 0 of mesh Cup: a face with a vertex twice; give diff"},
+        {{1, 0, 0}, 0, "Cup", "m.x: face 0 of mesh Cup: a face with a vertex twice; give diff"},
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
         struct aiVector3D at[4] = {{0, 0, 0}, rows[i].second, {1, 1, 0}, {0, 1, 0}};

@@ -202,6 +202,31 @@ TEST(gltf_of_corners_left_over_is_refused_where_they_are_of_triangles)
     mote_mesh_destroy(mesh);
 }
 
+/* A triangle and a square, of each of which one corner follows itself. */
+TEST(faces_with_a_vertex_twice_in_a_row_collapse_in_every_format)
+{
+    static const char *const files[][2] = {
+        {"d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 1 2 2\nf 2 4 4 3\nf 3 1 3\n"},
+        {"d.off",
+         "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 0 1 1\n4 1 3 3 2\n3 2 0 2\n"},
+        {"d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+         "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 0 1 1\n4 1 3 3 2\n3 2 0 2\n"}};
+    for (size_t i = 0; i < ROWS_OF(files); ++i) {
+        mote_mesh *mesh = NULL;
+        mote_import facts;
+        test_row("%s", files[i][0]);
+        if (import_text(files[i][0], files[i][1], strlen(files[i][1]), &mesh, &facts) !=
+            MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        assert_int_equal(mesh->triangle_count, 2);
+        assert_int_equal(mesh->vertex_count, 4);
+        assert_int_equal(facts.collapsed, 3);
+        mote_mesh_destroy(mesh);
+    }
+}
+
 TEST(mote_soup_weld_equal_places_become_one)
 {
     mote_soup soup = {0};
@@ -239,7 +264,8 @@ static const bad_text bad_texts[] = {
     {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", ":4: face with vertex -4"},
     {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", ":4: face with vertex 0"},
     {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", ":4: face"},
-    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n", ":4: a face with a vertex twice"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n",
+     "b.obj: each of its 1 faces has two corners"},
     {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", ":4: a face of 2 vertices"},
     {"b.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", ":2: a vertex without three numbers"},
     {"b.obj", "v 0 0 0\nv 1,5 0 0\n", ":2: a vertex without three numbers"},
@@ -259,19 +285,22 @@ static const bad_text bad_texts[] = {
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: face with vertex 3 of 3"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":6: face with vertex -1 of 3"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 4294967298\n", ":6: face with vertex"},
-    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n", ":6: a face with a vertex twice"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n",
+     "b.off: each of its 1 faces has two corners"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", ":6: a face of 3 corners with 2"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ":6: a face of 2 vertices"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", ":5: ends after 0 of 1 faces"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: ends after 2 of 3 vertices"},
     {"b.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no face"},
-    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n", ":4: a face with a vertex twice"},
-    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1\n", ":4: a face with a vertex twice"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n",
+     "b.obj: each of its 1 faces has two corners"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1\n",
+     "b.obj: each of its 1 faces has two corners"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", ":6: a face without its number"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\nx 0 1 2\n", ":6: a face without its number"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3.5 0 1 2\n", ":6: a face without its number"},
     {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", ":6: a face of 3 corners"},
-    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 1 2\n", ":6: a face with a vertex twice"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 0 2\n", ":6: a face with a vertex twice"},
     {"b.ply", "ply\nformat ascii 1.0\nelement vertex 3\nend_headers\n", "without a line end"},
     {"b.stl", "solid t\nendsolid t\nmore\n", ":4: ends without a line endsolid"},
     {"b.stl", "solid t\nouter loop\nvertex 0 0 0\nvertex 0 1\n", ":4: a vertex without three"},

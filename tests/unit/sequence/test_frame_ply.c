@@ -162,7 +162,7 @@ TEST(ply_with_wrong_entries_is_refused_with_their_number)
         {"3 0 1 2", "3 -1 1 2", "p.ply:13: face 1 has vertex -1 of 3; use 0 to 2"},
         {"3 0 1 2", "3 0 0.5 2", "p.ply:13: face 1 has vertex 0.5 of 3; use 0 to 2"},
         {"3 0 1 2", "3 0 nan 2", "p.ply:13: face 1 has vertex nan of 3; use 0 to 2"},
-        {"3 0 1 2", "3 0 1 0", "p.ply:13: face 1: a face with a vertex twice; give"},
+        {"3 0 1 2", "5 0 1 2 0 1", "p.ply:13: face 1: a face with a vertex twice; give"},
         {"face 1", "face 0", "p.ply:12: no face in it; give triangles"},
         {LIST, LIST "element odd 1\nproperty int a\n", "p.ply:16: ends after entry 0 of 1"},
         {LIST, LIST "element odd 1\nproperty list int int a\n",

@@ -57,12 +57,13 @@ TEST(numbered_mesh_remembers_the_numbers_of_its_file)
 {
     mote_numbered_mesh made = {0};
     file_put("m.Obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 8 8 8\nv 0 -1 0\nv 0 0 1\n"
-                      "f 2 3 4\nf 2 3 6\nf 2 3 7\n");
+                      "f 2 3 4\nf 2 2 4\nf 2 3 6\nf 2 3 7\n");
     assert_int_equal(mote_numbered_mesh_read("m.Obj", &made), MOTE_OK);
     static const double places[7][3] = {{9, 9, 9}, {0, 0, 0},  {1, 0, 0}, {0, 1, 0},
                                         {8, 8, 8}, {0, -1, 0}, {0, 0, 1}};
     assert_int_equal(made.file_vertices, 7);
     assert_int_equal(made.import.unused, 2);
+    assert_int_equal(made.import.collapsed, 1);
     assert_true(made.import.split.edges == 1 && made.mesh->vertex_count > 5);
     for (uint32_t v = 0; v < made.mesh->vertex_count; ++v) {
         const mote_vec3 at = made.mesh->positions[v];
