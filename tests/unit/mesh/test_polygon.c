@@ -349,8 +349,8 @@ TEST(polygon_thinner_than_rounded_coordinates_is_accepted)
     for (size_t o = 0; o < sizeof offsets / sizeof offsets[0]; ++o) {
         const double rounding = fmax(offsets[o], 1) * 0x1p-24;
         for (int i = 0; i < 400; ++i) {
-            const int corners = 8 + 2 * (i % 5);
-            const double width = rounding * (0.05 + 0.05 * (i / 5));
+            const int corners = 8 + 2 * (i % 5), step = i / 5;
+            const double width = rounding * (0.05 + 0.05 * step);
             if (strip_at(offsets[o], width, corners, 0.1 * i, false) != MOTE_OK)
                 fail_msg("%g, %d corners, %g wide: %s", offsets[o], corners, width,
                          mote_error_text());

@@ -439,10 +439,11 @@ TEST(poses_that_are_no_rows_are_refused_with_their_line)
 /* Programs for tables write other line ends, or none after the last row. */
 TEST(poses_may_end_their_lines_otherwise)
 {
-    static const char *const texts[] = {
-        POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0", POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0\r",
-        "frame,body,deformation,x,y,z,qw,qx,qy,qz\r\n1,1,1,0,0,0,1,0,0,0\r\n"
-        "2,1,2,0,1,0,-0.6,0,0.8,0\r\n"};
+    static const char unended[] = POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0",
+                      returned[] = POSES ROW_1 "2,1,2,0,1,0,-0.6,0,0.8,0\r",
+                      both[] = "frame,body,deformation,x,y,z,qw,qx,qy,qz\r\n"
+                               "1,1,1,0,0,0,1,0,0,0\r\n2,1,2,0,1,0,-0.6,0,0.8,0\r\n";
+    static const char *const texts[] = {unended, returned, both};
     for (size_t i = 0; i < ROWS_OF(texts); ++i) {
         mote_bodies bodies;
         mote_bodies_path path;
