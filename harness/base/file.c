@@ -299,6 +299,19 @@ char *mote_path_beside(const char *file, const char *name)
     return mote_format("%.*s%s", slash ? (int)(slash - file) + 1 : 0, file, name);
 }
 
+bool mote_path_goes_down(const char *path)
+{
+    if (path[0] == '/')
+        return false;
+    for (const char *part = path; *part; part += strspn(part, "/")) {
+        const size_t length = strcspn(part, "/");
+        if (length == 2 && strncmp(part, "..", 2) == 0)
+            return false;
+        part += length;
+    }
+    return true;
+}
+
 bool mote_name_ends(const char *name, const char *ending)
 {
     const size_t length = strlen(name), size = strlen(ending);

@@ -56,6 +56,10 @@ char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
    unless absolute. The caller frees it. */
 char *mote_path_beside(const char *file, const char *name);
 
+/* Whether a path is relative and none of its parts is "..": it then stays in the folder that it
+   starts from. */
+bool mote_path_goes_down(const char *path);
+
 /* Whether a name is longer than this ending and ends with it, in capitals or not:
    mote_name_ends(name, ".json"). */
 bool mote_name_ends(const char *name, const char *ending);

@@ -6,14 +6,13 @@
 #include <string.h>
 
 typedef struct checker {
-    const char *path;
     const mote_gltf *gltf;
     const char *list; /* of the file, with the entry being checked, for messages */
     size_t number;
 } checker;
 
 /* Extensions without which a mesh has other numbers, or none. Draco, if built in, is read. */
-static mote_status check_extensions(const char *path, const mote_gltf *gltf)
+static mote_status check_extensions(const mote_gltf *gltf)
 {
     static const struct {
         const char *name, *right;
@@ -28,7 +27,7 @@ static mote_status check_extensions(const char *path, const mote_gltf *gltf)
         for (size_t k = 0; name && k < sizeof unread / sizeof unread[0]; ++k) {
             if (strcmp(name, unread[k].name) == 0)
                 return mote_fail(MOTE_EINVAL, "%s: requires %s, which assimp does not read; %s",
-                                 path, name, unread[k].right);
+                                 gltf->path, name, unread[k].right);
         }
     }
     return MOTE_OK;
@@ -64,8 +63,8 @@ static mote_status check_floats(const checker *c, const json_t *accessor, const 
         return MOTE_OK;
     return mote_fail(
         MOTE_EINVAL,
-        "%s: %s[%zu]: %s has %s, which assimp takes for floats; write 32-bit floats%s", c->path,
-        c->list, c->number, what, component_name(component),
+        "%s: %s[%zu]: %s has %s, which assimp takes for floats; write 32-bit floats%s",
+        c->gltf->path, c->list, c->number, what, component_name(component),
         strcmp(c->list, "meshes") == 0 ? ", as gltf-transform dequantize does" : "");
 }
 
@@ -79,7 +78,7 @@ static mote_status check_shape(const checker *c, const json_t *accessor, const c
         return MOTE_OK;
     return mote_fail(
         MOTE_EINVAL, "%s: %s[%zu]: %s has too few elements, or of a wrong type; give %lld%s%s",
-        c->path, c->list, c->number, what, (long long)(count > 0 ? count : elements),
+        c->gltf->path, c->list, c->number, what, (long long)(count > 0 ? count : elements),
         type ? " of " : "", type ? type : "");
 }
 
@@ -133,11 +132,33 @@ static mote_status check_movers(const checker *c, const json_t *primitive)
     return status == MOTE_OK ? check_targets(c, json_object_get(primitive, "targets")) : status;
 }
 
+/* inverseBindMatrices may be left out: see mote_gltf_text. */
 static mote_status check_skin(const checker *c, const json_t *skin)
 {
     static const char what[] = "inverseBindMatrices";
-    const size_t joints = json_array_size(json_object_get(skin, "joints"));
-    return check_numbers(c, accessor_of(c, skin, what), what, "MAT4", (int64_t)joints);
+    const json_t *joints = json_object_get(skin, "joints");
+    const json_t *binds = accessor_of(c, skin, what);
+    for (size_t k = 0; k < json_array_size(joints); ++k) {
+        const json_t *joint = json_array_get(joints, k);
+        if (!json_is_integer(joint) ||
+            !mote_gltf_entry(c->gltf, "nodes", json_integer_value(joint)))
+            return mote_fail(MOTE_EINVAL, "%s: %s[%zu]: joints[%zu] is not a node; name one",
+                             c->gltf->path, c->list, c->number, k);
+    }
+    if (json_object_get(skin, what) && !binds)
+        return mote_fail(MOTE_EINVAL, "%s: %s[%zu]: %s is not an accessor; name one of %zu",
+                         c->gltf->path, c->list, c->number, what, json_array_size(joints));
+    return check_numbers(c, binds, what, "MAT4", (int64_t)json_array_size(joints));
+}
+
+static mote_status check_node(const checker *c, const json_t *node)
+{
+    if (!json_object_get(node, "skin") ||
+        (json_is_integer(json_object_get(node, "skin")) &&
+         mote_gltf_entry(c->gltf, "skins", mote_gltf_whole(node, "skin"))))
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "%s: %s[%zu]: skin is not a skin; name one", c->gltf->path,
+                     c->list, c->number);
 }
 
 static mote_status check_sampler(const checker *c, const json_t *sampler)
@@ -148,6 +169,19 @@ static mote_status check_sampler(const checker *c, const json_t *sampler)
                ? check_numbers(c, accessor_of(c, sampler, "output"), "a sampler's output", NULL,
                                mote_gltf_whole(times, "count"))
                : status;
+}
+
+/* Samplers that move no node may have any numbers. */
+static mote_status check_animation(const checker *c, const json_t *animation)
+{
+    const json_t *channels = json_object_get(animation, "channels");
+    mote_status status = MOTE_OK;
+    for (size_t k = 0; k < json_array_size(channels) && status == MOTE_OK; ++k) {
+        const json_t *channel = json_array_get(channels, k);
+        if (mote_gltf_moves(c->gltf, channel))
+            status = check_sampler(c, mote_gltf_sampler(animation, channel));
+    }
+    return status;
 }
 
 /* Of each entry of a list of the file, or of the parts of each, such as a mesh's primitives. */
@@ -168,28 +202,29 @@ static mote_status check_entry(const checker *c, const check *which, const json_
     return status;
 }
 
-static mote_status check_list(const char *path, const mote_gltf *gltf, const check *which)
+static mote_status check_list(const mote_gltf *gltf, const check *which)
 {
     const json_t *list = json_object_get(gltf->root, which->list);
-    checker c = {.path = path, .gltf = gltf, .list = which->list};
+    checker c = {.gltf = gltf, .list = which->list};
     mote_status status = MOTE_OK;
     for (; c.number < json_array_size(list) && status == MOTE_OK; ++c.number)
         status = check_entry(&c, which, json_array_get(list, c.number));
     return status;
 }
 
-mote_status mote_gltf_check(const char *path, const mote_gltf *gltf, bool moves)
+mote_status mote_gltf_check(const mote_gltf *gltf, bool moves)
 {
     static const check checks[] = {
         {"meshes", "primitives", check_positions, false},
         {"meshes", "primitives", check_movers, true},
         {"skins", NULL, check_skin, true},
-        {"animations", "samplers", check_sampler, true},
+        {"nodes", NULL, check_node, true},
+        {"animations", NULL, check_animation, true},
     };
-    mote_status status = check_extensions(path, gltf);
+    mote_status status = check_extensions(gltf);
     for (size_t i = 0; i < sizeof checks / sizeof checks[0] && status == MOTE_OK; ++i) {
         if (moves || !checks[i].moves)
-            status = check_list(path, gltf, &checks[i]);
+            status = check_list(gltf, &checks[i]);
     }
     return status;
 }

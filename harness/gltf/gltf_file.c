@@ -1,6 +1,10 @@
 #include "harness/gltf/gltf_file.h"
 
+#include "harness/base/file.h"
+#include "harness/base/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -71,13 +75,27 @@ mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote
     gltf->root = json_loadb(text, length, 0, &error);
     if (!gltf->root)
         return mote_fail(MOTE_EINVAL, "%s:%d: %s; write JSON", path, error.line, error.text);
+    gltf->path = mote_duplicate(path);
+    gltf->buffer_count = json_array_size(json_object_get(gltf->root, "buffers")) + 1;
+    gltf->buffers = mote_allocate(gltf->buffer_count, sizeof *gltf->buffers);
     return MOTE_OK;
 }
 
 void mote_gltf_close(mote_gltf *gltf)
 {
+    for (size_t b = 0; b < gltf->buffer_count; ++b)
+        free(gltf->buffers[b].own);
+    free(gltf->buffers);
+    free(gltf->path);
     json_decref(gltf->root);
     *gltf = (mote_gltf){0};
+}
+
+bool mote_gltf_is_2(const mote_gltf *gltf)
+{
+    const char *version =
+        json_string_value(json_object_get(json_object_get(gltf->root, "asset"), "version"));
+    return version && version[0] == '2';
 }
 
 const json_t *mote_gltf_entry(const mote_gltf *gltf, const char *list, int64_t index)
@@ -94,4 +112,32 @@ int64_t mote_gltf_whole(const json_t *object, const char *key)
     return json_is_real(value) && real >= 0 && real <= 0x1p53 && real == floor(real)
                ? (int64_t)real
                : -1;
+}
+
+char *mote_gltf_node_name(const mote_gltf *gltf, size_t node)
+{
+    const json_t *entry = mote_gltf_entry(gltf, "nodes", (int64_t)node);
+    const char *name = json_string_value(json_object_get(entry, "name"));
+    return name && *name ? mote_duplicate(name) : mote_format("nodes[%zu]", node);
+}
+
+bool mote_gltf_moves(const mote_gltf *gltf, const json_t *channel)
+{
+    static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
+    const json_t *target = json_object_get(channel, "target");
+    const char *path = json_string_value(json_object_get(target, "path"));
+    if (!mote_gltf_entry(gltf, "nodes", mote_gltf_whole(target, "node")))
+        return false;
+    for (size_t p = 0; path && p < sizeof paths / sizeof paths[0]; ++p) {
+        if (strcmp(path, paths[p]) == 0)
+            return true;
+    }
+    return false;
+}
+
+const json_t *mote_gltf_sampler(const json_t *animation, const json_t *channel)
+{
+    const int64_t index = mote_gltf_whole(channel, "sampler");
+    return index < 0 ? NULL
+                     : json_array_get(json_object_get(animation, "samplers"), (size_t)index);
 }

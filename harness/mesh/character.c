@@ -2,7 +2,6 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
-#include "harness/gltf/gltf_file.h"
 #include "harness/mesh/character_parts.h"
 #include "harness/mesh/import_child.h"
 
@@ -53,25 +52,12 @@ void mote_character_destroy(mote_character *character)
     free(character);
 }
 
-static mote_status set_keys(const char *path, mote_rig *rig)
-{
-    char *data = NULL;
-    size_t size = 0;
-    mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &data, &size);
-    if (status == MOTE_OK && mote_gltf_is(path, data, size))
-        status = mote_character_set_gltf_keys(path, data, size, rig);
-    free(data);
-    return status;
-}
-
 static mote_status import_in_child(void *context, int output)
 {
     mote_character_draft draft;
     memset(&draft, 0, sizeof draft);
     mote_import_begin_child();
     mote_status status = mote_character_read_assimp(context, &draft);
-    if (status == MOTE_OK)
-        status = set_keys(context, &draft.made.rig);
     if (status == MOTE_OK)
         status = mote_character_weld(context, &draft);
     if (status == MOTE_OK)

@@ -25,6 +25,7 @@ typedef struct influences {
 typedef struct reader {
     const char *path;
     const struct aiScene *scene;
+    mote_gltf *gltf;             /* NULL: another format */
     const struct aiNode **nodes; /* as numbered in the rig */
     size_t node_capacity;
     mote_node_name *names; /* [nodes], sorted */
@@ -38,6 +39,21 @@ typedef struct reader {
     mote_character_draft *draft;
 } reader;
 
+/* The number in a glTF file of a node by its name, or -1: the root of several nodes. */
+static int64_t gltf_number(const reader *r, const char *name)
+{
+    char *end = NULL;
+    const unsigned long number = r->gltf ? strtoul(name, &end, 10) : 0;
+    return end && end != name && *end == '\0' ? (int64_t)number : -1;
+}
+
+/* The name of a node in the file; the caller frees it. */
+static char *own_name(const reader *r, const char *name)
+{
+    const int64_t number = gltf_number(r, name);
+    return number < 0 ? mote_duplicate(name) : mote_gltf_node_name(r->gltf, (size_t)number);
+}
+
 static mote_status add_node(reader *r, const struct aiNode *node, uint32_t parent, int depth)
 {
     mote_rig *rig = &r->draft->made.rig;
@@ -48,8 +64,10 @@ static mote_status add_node(reader *r, const struct aiNode *node, uint32_t paren
                             sizeof(const struct aiNode *));
     r->nodes[own] = node;
     MOTE_RIG_GROW(rig, nodes, 1);
-    rig->nodes[own] = (mote_rig_node){parent, mote_rig_add_name(rig, node->mName.data),
+    char *name = own_name(r, node->mName.data);
+    rig->nodes[own] = (mote_rig_node){parent, mote_rig_add_name(rig, name),
                                       mote_assimp_affine(&node->mTransformation)};
+    free(name);
     mote_status status = MOTE_OK;
     for (unsigned i = 0; i < node->mNumChildren && status == MOTE_OK; ++i)
         status = add_node(r, node->mChildren[i], own, depth + 1);
@@ -89,10 +107,14 @@ static mote_status node_of_bone(const reader *r, const struct aiBone *bone, uint
 {
     char said[MOTE_SAID_MAX];
     *node = mote_node_find(r->names, r->draft->made.rig.nodes_count, bone->mName.data);
-    if (*node == MOTE_RIG_NONE)
-        return mote_fail(MOTE_EINVAL, "%s: bone %.60s is not a node; give each bone a node",
-                         r->path, mote_assimp_line(bone->mName.data, said));
-    return MOTE_OK;
+    if (*node != MOTE_RIG_NONE)
+        return MOTE_OK;
+    char *name = own_name(r, bone->mName.data);
+    const mote_status status =
+        mote_fail(MOTE_EINVAL, "%s: bone %.60s is not a node%s; give each bone a node", r->path,
+                  mote_assimp_line(name, said), r->gltf ? " of the scene" : "");
+    free(name);
+    return status;
 }
 
 /* A node's map as stored, or the identity if it is singular: a mesh with bones does not depend
@@ -204,6 +226,7 @@ static bool moves_any(const struct aiBone *bone)
 static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t base,
                                const mote_affine *back)
 {
+    const mote_rig *rig = &r->draft->made.rig;
     mote_status status = MOTE_OK;
     for (unsigned b = 0; b < mesh->mNumBones && status == MOTE_OK; ++b) {
         const struct aiBone *bone = mesh->mBones[b];
@@ -217,11 +240,9 @@ static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t ba
             status = find_bone(r, node, &bind, &own);
         for (unsigned k = 0; k < bone->mNumWeights && status == MOTE_OK; ++k) {
             const struct aiVertexWeight *w = &bone->mWeights[k];
-            char said[MOTE_SAID_MAX];
             if (w->mVertexId >= mesh->mNumVertices)
-                return mote_fail(MOTE_EINVAL,
-                                 "%s: bone %.60s moves vertex %u of %u; use 0 to %u", r->path,
-                                 mote_assimp_line(bone->mName.data, said), w->mVertexId,
+                return mote_fail(MOTE_EINVAL, "%s: bone %s moves vertex %u of %u; use 0 to %u",
+                                 r->path, rig->names + rig->nodes[node].name, w->mVertexId,
                                  mesh->mNumVertices, mesh->mNumVertices - 1);
             add_influence(&r->weights, (influence){.vertex = base + w->mVertexId,
                                                    .of = own,
@@ -254,6 +275,17 @@ static mote_status follow_node(reader *r, const struct aiMesh *mesh, uint32_t ba
     return status;
 }
 
+/* The weight of a target at rest. In glTF a node's own takes the place of its mesh's, which is
+   all that assimp reads. */
+static double weight_at_rest(const reader *r, uint32_t node, const struct aiAnimMesh *to,
+                             unsigned target)
+{
+    const int64_t number = gltf_number(r, r->nodes[node]->mName.data);
+    const json_t *entry = number < 0 ? NULL : mote_gltf_entry(r->gltf, "nodes", number);
+    const json_t *own = json_array_get(json_object_get(entry, "weights"), target);
+    return (double)(json_is_number(own) ? (float)json_number_value(own) : to->mWeight);
+}
+
 /* Adds the morph targets of a mesh. assimp gives positions, and with all weights 0 they are the
    mesh's own. */
 static mote_status add_targets(reader *r, const struct aiMesh *mesh, uint32_t base,
@@ -272,7 +304,7 @@ static mote_status add_targets(reader *r, const struct aiMesh *mesh, uint32_t ba
                              mesh->mNumVertices);
         MOTE_RIG_GROW(rig, targets, 1);
         rig->targets[own] = (mote_rig_target){mote_rig_add_name(rig, to->mName.data), node, t,
-                                              (double)to->mWeight};
+                                              weight_at_rest(r, node, to, t)};
         for (uint32_t v = 0; to->mVertices && v < mesh->mNumVertices; ++v) {
             const struct aiVector3D *a = &mesh->mVertices[v], *b = &to->mVertices[v];
             const mote_vec3 shift = {(double)b->x - (double)a->x, (double)b->y - (double)a->y,
@@ -379,6 +411,23 @@ static void make_slots(reader *r)
     memset(r->slots, 0xff, r->slot_count * sizeof *r->slots);
 }
 
+/* Sets the keys that assimp does not read. */
+static mote_status set_keys(const reader *r)
+{
+    const size_t count = json_array_size(json_object_get(r->gltf->root, "nodes"));
+    mote_rig *rig = &r->draft->made.rig;
+    uint32_t *nodes = mote_allocate(count, sizeof *nodes);
+    memset(nodes, 0xff, count * sizeof *nodes); /* MOTE_RIG_NONE */
+    for (size_t n = rig->nodes_count; n-- > 0;) {
+        const int64_t number = gltf_number(r, r->nodes[n]->mName.data);
+        if (number >= 0 && (size_t)number < count)
+            nodes[number] = (uint32_t)n;
+    }
+    const mote_status status = mote_character_set_gltf_keys(r->gltf, nodes, rig);
+    free(nodes);
+    return status;
+}
+
 static mote_status read_scene(reader *r)
 {
     mote_rig *rig = &r->draft->made.rig;
@@ -397,7 +446,7 @@ static mote_status read_scene(reader *r)
         mote_character_read_clips(r->scene, r->names, rig);
         set_arrays(r);
     }
-    return status;
+    return status == MOTE_OK && r->gltf ? set_keys(r) : status;
 }
 
 /* Whether anything in the file can move. */
@@ -410,21 +459,28 @@ static bool has_bones(const struct aiScene *scene)
     return false;
 }
 
+static mote_status read_moving(reader *r)
+{
+    if (has_bones(r->scene) || r->scene->mNumAnimations > 0)
+        return read_scene(r);
+    return mote_fail(MOTE_EUNSUPPORTED,
+                     "%s: no bones, morph targets or clips in it: nothing can move; name it as "
+                     "\"file\"",
+                     r->path);
+}
+
 mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft)
 {
-    reader r = {.path = path, .draft = draft};
-    mote_status status = mote_assimp_open(path, true, &r.scene);
-    if (status != MOTE_OK)
-        return status;
-    if (has_bones(r.scene) || r.scene->mNumAnimations > 0)
-        status = read_scene(&r);
-    else
-        status = mote_fail(MOTE_EUNSUPPORTED,
-                           "%s: no bones, morph targets or clips in it: nothing can move; name "
-                           "it as \"file\"",
-                           path);
+    mote_assimp_file file;
+    mote_status status = mote_assimp_open(path, true, &file);
+    reader r = {.path = path,
+                .scene = file.scene,
+                .gltf = file.gltf.root ? &file.gltf : NULL,
+                .draft = draft};
+    if (status == MOTE_OK)
+        status = read_moving(&r);
     draft->soup.single_precision = true;
-    aiReleaseImport(r.scene);
+    mote_assimp_close(&file);
     free(r.nodes);
     free(r.names);
     free(r.globals);

@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_CHARACTER_PARTS_H
 #define MOTE_HARNESS_CHARACTER_PARTS_H
 
+#include "harness/gltf/gltf_file.h"
 #include "harness/mesh/character_data.h"
 #include "harness/mesh/mesh_soup.h"
 
@@ -26,7 +27,7 @@ void mote_character_set_arrays(mote_character *character, mote_character *from);
    many as in the file, weights as given. Call it in a child process with limits. */
 mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft);
 
-/* A node, by its name in the file. */
+/* A node, by its name as assimp gives it: for glTF 2, the node's number in the file. */
 typedef struct mote_node_name {
     const char *name;
     uint32_t node;
@@ -41,11 +42,10 @@ struct aiScene;
 void mote_character_read_clips(const struct aiScene *scene, const mote_node_name *names,
                                mote_rig *rig);
 
-/* Makes tracks of a rig step or cubic where a glTF file, text or binary, says so; assimp reads
-   all of them as linear. path locates buffers in other files. MOTE_EINVAL: cubic keys that
-   cannot be read. */
-mote_status mote_character_set_gltf_keys(const char *path, const char *data, size_t size,
-                                         mote_rig *rig);
+/* Makes tracks of a rig step or cubic where a glTF file says so; assimp reads all of them as
+   linear. nodes: the rig's number of each node of the file, or MOTE_RIG_NONE. MOTE_EINVAL:
+   cubic keys that cannot be read. */
+mote_status mote_character_set_gltf_keys(mote_gltf *gltf, const uint32_t *nodes, mote_rig *rig);
 
 /* Normalises weights to a sum of 1, welds vertices at one place that move alike, cuts edges of
    more than two faces apart, and records what was done. MOTE_EINVAL: a weight that is negative

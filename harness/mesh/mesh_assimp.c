@@ -3,7 +3,6 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
-#include "harness/gltf/gltf_file.h"
 
 #include <assimp/cimport.h>
 #include <math.h>
@@ -153,13 +152,15 @@ static mote_status fail_as_assimp_says(const char *path)
             "%s: neither its name nor its content is that of a known mesh format; give a "
             "mesh in OBJ, PLY, STL, OFF or glTF",
             path);
+    if (strstr(said, "bad_alloc"))
+        return mote_fail(MOTE_ENOMEM, "%s: assimp has no memory left", path);
     return mote_fail(
         MOTE_EINVAL,
         "%s: assimp cannot read it (%s); give a mesh in OBJ, PLY, STL, OFF or glTF", path,
         said);
 }
 
-/* assimp takes a glTF file for a binary one by its name alone. */
+/* assimp takes a glTF file of version 1 for a binary one by its name alone. */
 static mote_status check_name(const char *path, const mote_gltf *gltf)
 {
     const bool says_binary = mote_name_ends(path, ".glb");
@@ -169,64 +170,86 @@ static mote_status check_name(const char *path, const mote_gltf *gltf)
                      gltf->is_binary ? "binary" : "text", gltf->is_binary ? ".glb" : ".gltf");
 }
 
-/* mote_gltf_check of a file; one that is not glTF passes. */
-static mote_status check_gltf(const char *path, bool moves)
+/* Reads and checks a file that is glTF; *text is NULL for one that is not, or is of version 1.
+ */
+static mote_status read_gltf(const char *path, bool moves, mote_assimp_file *file, char **text)
 {
-    char *data = NULL;
     size_t size = 0;
-    mote_gltf gltf = {0};
-    mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &data, &size);
-    if (status == MOTE_OK && mote_gltf_is(path, data, size)) {
-        status = mote_gltf_open(path, data, size, &gltf);
-        if (status == MOTE_OK)
-            status = check_name(path, &gltf);
-        if (status == MOTE_OK)
-            status = mote_gltf_check(path, &gltf, moves);
+    mote_gltf *gltf = &file->gltf;
+    mote_status status = mote_file_read(path, MOTE_GLTF_BYTES, &file->data, &size);
+    if (status != MOTE_OK || !mote_gltf_is(path, file->data, size))
+        return status;
+    status = mote_gltf_open(path, file->data, size, gltf);
+    if (status == MOTE_OK && !mote_gltf_is_2(gltf)) {
+        status = check_name(path, gltf);
+        mote_gltf_close(gltf);
+        return status;
     }
-    mote_gltf_close(&gltf);
-    free(data);
+    if (status == MOTE_OK)
+        status = mote_gltf_check(gltf, moves);
+    if (status == MOTE_OK && moves)
+        status = mote_gltf_check_joints(gltf);
+    if (status == MOTE_OK)
+        *text = mote_gltf_text(gltf, moves);
     return status;
 }
 
-mote_status mote_assimp_open(const char *path, bool moves, const struct aiScene **scene)
+void mote_assimp_close(mote_assimp_file *file)
+{
+    aiReleaseImport(file->scene);
+    mote_gltf_close(&file->gltf);
+    free(file->data);
+    *file = (mote_assimp_file){0};
+}
+
+/* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp makes
+   wrong triangles if a face is concave and not flat. */
+static mote_status import(const char *path, char *text, mote_assimp_file *file)
 {
     char what = DROPPED_NONE;
-    mote_status status = check_gltf(path, moves);
-    if (status != MOTE_OK)
-        return status;
     const struct aiLogStream log = {note_dropped, &what};
+    mote_assimp_files files = {.path = path,
+                               .gltf = text ? &file->gltf : NULL,
+                               .text = text,
+                               .size = text ? strlen(text) : 0};
+    struct aiFileIO io = mote_assimp_file_io(&files);
     aiAttachLogStream(&log);
-    /* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp
-       makes wrong triangles if a face is concave and not flat. */
-    char *name = mote_duplicate(path);
-    struct aiFileIO files = mote_assimp_files(name);
-    const struct aiScene *opened = aiImportFileEx(path, 0, &files);
-    free(name);
+    file->scene = aiImportFileEx(text ? MOTE_ASSIMP_TEXT : path, 0, &io);
     aiDetachLogStream(&log);
-    if (!opened)
-        return fail_as_assimp_says(path);
+    if (!file->scene)
+        return files.status != MOTE_OK ? files.status : fail_as_assimp_says(path);
     if (what != DROPPED_NONE)
-        status = refuse_dropped(path, what);
-    else if (!opened->mRootNode || opened->mNumMeshes == 0)
-        status = mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
+        return refuse_dropped(path, what);
+    return file->scene->mRootNode && file->scene->mNumMeshes > 0
+               ? MOTE_OK
+               : mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
+}
+
+mote_status mote_assimp_open(const char *path, bool moves, mote_assimp_file *file)
+{
+    char *text = NULL;
+    *file = (mote_assimp_file){0};
+    mote_status status = read_gltf(path, moves, file, &text);
+    if (!file->gltf.is_binary) {
+        free(file->data);
+        file->data = NULL;
+    }
     if (status == MOTE_OK)
-        *scene = opened;
-    else
-        aiReleaseImport(opened);
+        status = import(path, text, file);
+    free(text);
     return status;
 }
 
 mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
 {
     const mote_affine identity = mote_affine_identity();
-    const struct aiScene *scene = NULL;
-    mote_status status = mote_assimp_open(path, false, &scene);
-    if (status != MOTE_OK)
-        return status;
+    mote_assimp_file file;
+    mote_status status = mote_assimp_open(path, false, &file);
     soup->single_precision = true;
-    status = add_node(path, scene, scene->mRootNode, &identity, 0, soup);
+    if (status == MOTE_OK)
+        status = add_node(path, file.scene, file.scene->mRootNode, &identity, 0, soup);
     if (status == MOTE_OK && soup->triangle_count == 0)
         status = mote_fail(MOTE_EINVAL, "%s: no face in it; give triangles", path);
-    aiReleaseImport(scene);
+    mote_assimp_close(&file);
     return status;
 }

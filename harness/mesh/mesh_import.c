@@ -3,6 +3,7 @@
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
+#include "harness/gltf/gltf_file.h"
 #include "harness/mesh/import_child.h"
 #include "harness/mesh/mesh_soup.h"
 
@@ -16,8 +17,8 @@
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
-#define MEMORY_BYTES ((size_t)128 << 20) /* plus sixty times the file's size */
-#define SECONDS 4.0                      /* plus one for every 8 MB of the file */
+#define MEMORY_BYTES ((size_t)128 << 20) /* plus sixty times the bytes read */
+#define SECONDS 4.0                      /* plus one for every 8 MB read */
 
 typedef struct header {
     uint64_t vertex_count, triangle_count;
@@ -203,6 +204,62 @@ static mote_status make_mesh(const char *path, const char *data, size_t size, mo
     return status;
 }
 
+static mote_child_limits limits_of(size_t bytes)
+{
+    return (mote_child_limits){.seconds = SECONDS + (double)bytes / 8e6,
+                               .memory_bytes = MEMORY_BYTES + 60 * bytes,
+                               .output_bytes = MEMORY_BYTES + 60 * bytes,
+                               .confined = true};
+}
+
+/* Sends the bytes of the files that a glTF file names. */
+static mote_status measure_in_child(void *context, int output)
+{
+    char *data = NULL;
+    size_t size = 0;
+    mote_gltf gltf = {0};
+    mote_import_begin_child();
+    mote_status status = mote_file_read(context, FILE_LIMIT, &data, &size);
+    if (status == MOTE_OK)
+        status = mote_gltf_open(context, data, size, &gltf);
+    const uint64_t bytes = mote_gltf_bytes_beside(&gltf);
+    mote_gltf_close(&gltf);
+    free(data);
+    return status == MOTE_OK ? mote_child_put(output, &bytes, sizeof bytes) : status;
+}
+
+/* The bytes that are read for a file of so many: with those of the files that a glTF text
+   names. Nothing else is read of those here, and what is wrong is said later. */
+static uint64_t bytes_read_for(const char *path, size_t bytes)
+{
+    char *output = NULL;
+    size_t size = 0;
+    uint64_t beside = 0;
+    if (has_ending(path, ".gltf") &&
+        mote_child_run(path, measure_in_child, (void *)(uintptr_t)path, limits_of(bytes),
+                       &output, &size) == MOTE_OK &&
+        size == sizeof beside)
+        memcpy(&beside, output, sizeof beside);
+    free(output);
+    return beside > FILE_LIMIT ? beside : bytes + beside;
+}
+
+/* Adds to the text of a failure of the child itself, and not of what it read, what to do. */
+static mote_status blame_reader(const char *path, const char *reader, mote_status status,
+                                const mote_child_limits *limits)
+{
+    const char *right =
+        is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ or OFF";
+    if (status == MOTE_ENOMEM)
+        return mote_fail(status,
+                         "%s: needs more memory than the %zu MB that a file of this size gets; "
+                         "give %s",
+                         reader, limits->memory_bytes >> 20, right);
+    if (strncmp(mote_error_text(), reader, strlen(reader)) == 0)
+        return mote_fail(status, "%s; give %s", mote_error_text(), right);
+    return status;
+}
+
 mote_status mote_import_run_child(const char *path, mote_child_work work, char **output,
                                   size_t *size)
 {
@@ -211,22 +268,19 @@ mote_status mote_import_run_child(const char *path, mote_child_work work, char *
         return mote_fail(MOTE_EIO, "%s: %s; name a mesh file", path, strerror(errno));
     if (!S_ISREG(info.st_mode))
         return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a mesh file", path);
-    const size_t bytes = (size_t)info.st_size;
+    uint64_t bytes = (uint64_t)info.st_size;
+    if (bytes <= FILE_LIMIT)
+        bytes = bytes_read_for(path, (size_t)bytes);
     if (bytes > FILE_LIMIT)
-        return mote_fail(MOTE_EINVAL, "%s: %zu bytes; at most %zu are read", path, bytes,
-                         FILE_LIMIT);
-    const mote_child_limits limits = {.seconds = SECONDS + (double)bytes / 8e6,
-                                      .memory_bytes = MEMORY_BYTES + 60 * bytes,
-                                      .output_bytes = MEMORY_BYTES + 60 * bytes,
-                                      .confined = true};
+        return mote_fail(MOTE_EINVAL, "%s: %llu bytes; at most %zu are read", path,
+                         (unsigned long long)bytes, FILE_LIMIT);
+    const mote_child_limits limits = limits_of((size_t)bytes);
     char *reader = mote_format("%s: the reader of this format", path);
     /* The child only reads the name. */
     mote_status status =
         mote_child_run(reader, work, (void *)(uintptr_t)path, limits, output, size);
-    if (status != MOTE_OK && strncmp(mote_error_text(), reader, strlen(reader)) == 0)
-        status =
-            mote_fail(status, "%s; give %s", mote_error_text(),
-                      is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ");
+    if (status != MOTE_OK)
+        status = blame_reader(path, reader, status, &limits);
     free(reader);
     return status;
 }

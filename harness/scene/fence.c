@@ -48,25 +48,12 @@ static bool lies_in(char *folder, const char *path)
     return lies;
 }
 
-/* Whether a relative path never goes up. */
-static bool goes_down(const char *path)
-{
-    for (const char *part = path; *part; part += strspn(part, "/")) {
-        const size_t length = strcspn(part, "/");
-        if (length == 2 && strncmp(part, "..", 2) == 0)
-            return false;
-        part += length;
-    }
-    return true;
-}
-
 /* Whether file, as written, starts in the scenario's folder and never goes up. */
 static bool is_written_below(const char *scenario, const char *file)
 {
     const char *slash = strrchr(scenario, '/');
     const size_t length = slash ? (size_t)(slash - scenario) + 1 : 0;
-    return strncmp(scenario, file, length) == 0 && file[length] != '/' &&
-           goes_down(file + length);
+    return strncmp(scenario, file, length) == 0 && mote_path_goes_down(file + length);
 }
 
 static bool may_be_named(const char *scenario, const char *file, const char *without_links)

@@ -7,6 +7,8 @@
 #include "tests/unit/mesh/refused.h"
 
 #include <math.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* The bytes that the accessors below refer to: a triangle bound to the first joint, the joint's
    inverse bind matrix, and a clip that moves a node from 0 to 3 along x. */
@@ -75,6 +77,19 @@ static mote_character *import(const char *path, mote_character_import *facts)
     if (mote_character_import_file(path, &made, facts) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return made;
+}
+
+/* Replaces a word each time it occurs. */
+static void replace(const char *path, const char *from, const char *to)
+{
+    char *text = file_text(path), *rest = text;
+    mote_text changed = {0};
+    for (char *at; (at = strstr(rest, from)) != NULL; rest = at + strlen(from))
+        mote_text_add(&changed, "%.*s%s", (int)(at - rest), rest, to);
+    mote_text_add(&changed, "%s", rest);
+    file_put(path, changed.data);
+    free(changed.data);
+    free(text);
 }
 
 #define TWO_NODES                                                                              \
@@ -166,6 +181,88 @@ TEST(character_of_a_moving_node_follows_it)
     }
 }
 
+/* The place of a vertex at a time of the first clip, or where there is none. */
+static mote_vec3 place_at(const mote_character *c, double seconds, uint32_t v)
+{
+    mote_vec3 x = c->mesh->positions[v], at = {0, 0, 0};
+    mote_character_pose pose = mote_character_pose_create(c);
+    mote_character_pose_set(c, c->rig.clips_count > 0 ? 0 : MOTE_RIG_NONE, seconds, &pose);
+    for (uint32_t i = c->shift_start[v]; i < c->shift_start[v + 1]; ++i)
+        x = mote_add_scaled(x, pose.morphs[c->target[i]], c->shift[i]);
+    for (uint32_t i = c->start[v]; i < c->start[v + 1]; ++i)
+        at =
+            mote_add_scaled(at, c->weight[i], mote_affine_apply(&pose.matrices[c->bone[i]], x));
+    mote_character_pose_free(&pose);
+    return at;
+}
+
+#define MORPHS "{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}"
+#define BARE_SKIN "\"skins\":[{\"joints\":[1]}],"
+#define TWO_SKINS                                                                              \
+    "\"skins\":[{\"joints\":[2],\"inverseBindMatrices\":2},{\"joints\":[4],"                   \
+    "\"inverseBindMatrices\":2}],"
+#define CHANNEL(target) "{\"sampler\":0,\"target\":{" target "\"path\":\"translation\"}}"
+#define CHANNELS(list, mode)                                                                   \
+    "\"animations\":[{\"channels\":[" list "],\"samplers\":[{\"input\":3,\"output\":4" mode    \
+    "}]}],"
+
+/* Files of glTF that assimp alone reads as something else (docs/characters.md). The clip moves
+   a node by 3 along x. */
+TEST(character_of_gltf_moves_as_its_indices_say)
+{
+    static const struct {
+        const char *what, *nodes, *primitive, *more;
+        double seconds;
+        uint32_t vertices, moved; /* all, and those beyond x = 1.5 at that time */
+    } rows[] = {
+        {"two nodes of one name",
+         "{\"children\":[1,2]},{\"name\":\"a\",\"mesh\":0},{\"name\":\"a\",\"mesh\":0}", PLAIN,
+         ANIMATION("2"), 1, 6, 3},
+        {"two joints of one name, and two skins of one mesh",
+         "{\"children\":[1,2,3,4]},{\"mesh\":0,\"skin\":0},{\"name\":\"a\"},{\"mesh\":0,"
+         "\"skin\":1}"
+         ",{\"name\":\"a\"}",
+         BOUND, TWO_SKINS ANIMATION("4"), 1, 6, 3},
+        {"a mesh with a skin and without",
+         "{\"children\":[1,2,3,4]},{\"mesh\":0,\"skin\":0},{},{\"mesh\":0,\"translation\":"
+         "[0,0,7]},{}",
+         BOUND, TWO_SKINS ANIMATION("3"), 1, 6, 3},
+        {"one skin, two morphs of one mesh",
+         "{\"children\":[1,2,3,4]},{\"mesh\":0,\"skin\":0},{},{\"mesh\":0,\"skin\":0,"
+         "\"weights\":"
+         "[1]},{}",
+         "{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":5,\"WEIGHTS_0\":1},\"targets\":[{"
+         "\"POSITION\":0}]}",
+         TWO_SKINS, 0, 5, 1},
+        {"a channel without a node", "{\"mesh\":0}", PLAIN, CHANNELS(CHANNEL(""), ""), 1, 3, 0},
+        {"a channel without a node, and one with", "{\"mesh\":0},{}", PLAIN,
+         CHANNELS(CHANNEL("\"node\":0,") "," CHANNEL(""), ""), 1, 3, 3},
+        {"a path that an extension knows", "{\"mesh\":0}", PLAIN,
+         CHANNELS("{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"pointer\"}}", ""), 1, 3, 0},
+        {"the weights of a node", "{\"mesh\":0,\"weights\":[1]}", MORPHS, "", 0, 3, 1},
+        {"a node without weights", "{\"mesh\":0}", MORPHS, "", 0, 3, 0},
+        {"a step of a node with a tab in its name", "{\"name\":\"a\\tb\",\"mesh\":0}", PLAIN,
+         CHANNELS(CHANNEL("\"node\":0,"), ",\"interpolation\":\"STEP\""), 0.75, 3, 0},
+        {"and its end", "{\"name\":\"a\\tb\",\"mesh\":0}", PLAIN,
+         CHANNELS(CHANNEL("\"node\":0,"), ",\"interpolation\":\"STEP\""), 1, 3, 3},
+        {"a skin without inverse bind matrices",
+         "{\"mesh\":0,\"skin\":0,\"children\":[1]},{\"name\":\"a\"}", BOUND,
+         BARE_SKIN ANIMATION("1"), 1, 3, 3},
+    };
+    const buffer data = make_buffer();
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        uint32_t moved = 0;
+        test_row("%s", rows[i].what);
+        write_gltf("c.gltf", &data, rows[i].nodes, rows[i].primitive, rows[i].more);
+        mote_character *c = import("c.gltf", NULL);
+        assert_int_equal(c->mesh->vertex_count, rows[i].vertices);
+        for (uint32_t v = 0; v < c->mesh->vertex_count; ++v)
+            moved += place_at(c, rows[i].seconds, v).x > 1.5;
+        assert_int_equal(moved, rows[i].moved);
+        mote_character_destroy(c);
+    }
+}
+
 static void refuse(const char *path, const char *says)
 {
     mote_character *c = NULL;
@@ -219,19 +316,6 @@ TEST(files_that_end_early_or_hold_no_mesh_are_refused)
     refuse_mesh("c.x", "c.x: no mesh in it; give triangles");
 }
 
-/* Replaces a word each time it occurs. */
-static void replace(const char *path, const char *from, const char *to)
-{
-    char *text = file_text(path), *rest = text;
-    mote_text changed = {0};
-    for (char *at; (at = strstr(rest, from)) != NULL; rest = at + strlen(from))
-        mote_text_add(&changed, "%.*s%s", (int)(at - rest), rest, to);
-    mote_text_add(&changed, "%s", rest);
-    file_put(path, changed.data);
-    free(changed.data);
-    free(text);
-}
-
 /* The bone with the largest weights has no node, or one before it. */
 TEST(character_whose_bone_has_no_node_is_refused)
 {
@@ -244,6 +328,90 @@ TEST(character_whose_bone_has_no_node_is_refused)
     bar_write("c.x", part);
     replace("c.x", "{ \"Lower\"", "{ \"zone\"");
     refuse("c.x", "c.x: bone zone is not a node; give each bone a node");
+}
+
+/* Skins and joints that assimp ignores, or crashes from. */
+TEST(character_of_wrong_joints_is_refused)
+{
+#define SET(n) "\"JOINTS_" n "\":5,\"WEIGHTS_" n "\":1"
+    static const char pairs[] = "c.gltf: meshes[0]: its JOINTS and WEIGHTS are not pairs";
+    static const struct {
+        const char *attributes, *says;
+    } rows[] = {
+        {SET("0"), "c.gltf: meshes[0]: JOINTS_0 (accessors[5]) has joint 1 of 1 of skins[0] at "
+                   "vertex 1; use 0 to 0"},
+        {"\"JOINTS_0\":5", pairs},
+        {"\"WEIGHTS_0\":1", pairs},
+        {SET("1"), pairs},
+        {SET("0") ",\"WEIGHTS_1\":1", pairs},
+        {"\"JOINTS_0\":5,\"WEIGHTS_0\":9", pairs},
+        {"\"JOINTS_0\":1,\"WEIGHTS_0\":1",
+         "c.gltf: JOINTS that are no whole numbers; give who"},
+    };
+    buffer data = make_buffer();
+    data.joints[4] = 1;
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char *primitive =
+            mote_format("{\"attributes\":{\"POSITION\":0,%s}}", rows[i].attributes);
+        write_gltf("c.gltf", &data, TWO_NODES, primitive, SKIN);
+        refuse("c.gltf", rows[i].says);
+        free(primitive);
+    }
+    data.weights[4] = 0; /* what has no weight may be any joint */
+    write_gltf("c.gltf", &data, TWO_NODES, BOUND, SKIN);
+    mote_character_destroy(import("c.gltf", NULL));
+}
+
+/* The joint is no part of the scene. */
+TEST(character_whose_joint_is_elsewhere_is_refused_by_its_name)
+{
+    const buffer data = make_buffer();
+    write_gltf("c.gltf", &data, "{\"mesh\":0,\"skin\":0},{\"name\":\"Hip\"}", BOUND, SKIN);
+    refuse("c.gltf", "c.gltf: bone Hip is not a node of the scene; give each bone a node");
+}
+
+/* A buffer in another folder, by a link or by its name; one whose name only looks so; one that
+   never ends. */
+TEST(gltf_reads_no_files_of_other_folders)
+{
+    static const char *const names[] = {"../c.bin", "%2e./c.bin", "a/../../c.bin", "/c.bin"};
+    const buffer data = make_buffer();
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mkdir("sub", 0700), 0);
+    for (size_t n = 0; n < ROWS_OF(names); ++n) {
+        write_gltf("sub/c.gltf", &data, "{\"mesh\":0}", PLAIN, ANIMATION("0"));
+        replace("sub/c.gltf", "c.bin", names[n]);
+        refuse_mesh("sub/c.gltf", "sub/c.gltf: names ");
+        assert_non_null(strstr(mote_error_text(), "which is not in its folder; put that file"));
+        refuse("sub/c.gltf", "sub/c.gltf: names ");
+    }
+    file_write("sub/c..bin", &data, sizeof data);
+    replace("sub/c.gltf", names[3], "c..bin");
+    assert_int_equal(mote_mesh_import("sub/c.gltf", &mesh, NULL), MOTE_OK);
+    mote_mesh_destroy(mesh);
+    assert_int_equal(mkfifo("sub/fifo", 0600), 0);
+    replace("sub/c.gltf", "c..bin", "fifo");
+    refuse_mesh("sub/c.gltf", "sub/c.gltf: buffer sub/fifo: not a regular file; name a file");
+}
+
+/* The limits of the process that reads a file follow from its buffers, too: 200 MB here, of
+   which the disk stores few. */
+TEST(gltf_of_a_large_buffer_in_a_file_is_read)
+{
+    const buffer data = make_buffer();
+    char *length = mote_format("\"byteLength\":%zu}],", sizeof data);
+    mote_mesh *mesh = NULL;
+    write_gltf("c.gltf", &data, "{\"mesh\":0}", PLAIN, ANIMATION("0"));
+    replace("c.gltf", length, "\"byteLength\":200000000}],");
+    assert_int_equal(truncate("c.bin", 200000000), 0);
+    if (mote_mesh_import("c.gltf", &mesh, NULL) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    mote_mesh_destroy(mesh);
+    mote_character_destroy(import("c.gltf", NULL));
+    assert_int_equal(truncate("c.bin", ((off_t)4 << 30) + 1), 0);
+    refuse_mesh("c.gltf", "c.gltf: 4294967297 bytes; at most 4294967296 are read");
+    assert_int_equal(truncate("c.bin", 0), 0);
+    free(length);
 }
 
 TEST(node_names_are_found_by_halves)

@@ -89,10 +89,23 @@ static char *changed(const mote_rig *rig)
     return text.data;
 }
 
+/* The rig's nodes are in the file's order. */
+static mote_status set_keys_of(const char *path, const char *data, size_t size, mote_rig *rig)
+{
+    static const uint32_t nodes[] = {0, 1, 2, MOTE_RIG_NONE};
+    mote_gltf gltf;
+    *rig = make_rig();
+    mote_status status = mote_gltf_open(path, data, size, &gltf);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_character_set_gltf_keys(&gltf, nodes, rig);
+    mote_gltf_close(&gltf);
+    return status;
+}
+
 static mote_status set_keys(const char *text, mote_rig *rig)
 {
-    *rig = make_rig();
-    return mote_character_set_gltf_keys("k.gltf", text, strlen(text), rig);
+    return set_keys_of("k.gltf", text, strlen(text), rig);
 }
 
 TEST(gltf_keys_change_the_tracks_that_their_channels_name)
@@ -108,7 +121,9 @@ TEST(gltf_keys_change_the_tracks_that_their_channels_name)
         {NODE, "\"node\":2", "p2c"},
         {NODE, "\"node\":7", ""},
         {NODE, "\"node\":\"Part\"", ""},
-        {"{\"name\":\"Part\"}", "{\"name\":\"Other\"}", ""},
+        {"{\"name\":\"Part\"},{}", "{},{\"name\":\"Part\"}", "p0c"},
+        {"{\"name\":\"\"}],\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{" NODE,
+         "{},{}],\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":3", ""},
         {MODE, "\"interpolation\":\"LINEAR\"", ""},
         {MODE, "\"interpolation\":\"STEP\"", "p0"},
         {MODE, "\"interpolation\":\"ODD\"", ""},
@@ -215,7 +230,8 @@ TEST(gltf_keys_that_cannot_be_read_are_refused)
     static const char floats[] = "k.gltf: cubic keys that are no floats; give floats in a",
                       beyond[] = "k.gltf: cubic keys beyond the end of their buffer",
                       three[] = "k.gltf: cubic keys that are not three for each time",
-                      folder[] = "k.gltf: cubic keys in a file of another folder",
+                      folder[] =
+                          "which is not in its folder; put that file beside it, or below",
                       offset[] = "k.gltf: cubic keys whose byteOffset or byteStride is not a "
                                  "whole number";
     static const struct {
@@ -230,14 +246,20 @@ TEST(gltf_keys_that_cannot_be_read_are_refused)
         {KEYS, "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"sparse\":{}}", floats,
          MOTE_EINVAL},
         {VIEW, "{}", "k.gltf: cubic keys in no buffer", MOTE_EINVAL},
-        {URI, "", "k.gltf: cubic keys in no buffer", MOTE_EINVAL},
+        {URI, "", "k.gltf: buffers[0] has no bytes; give it a uri", MOTE_EINVAL},
+        {VIEW, "{\"buffer\":1}", "k.gltf: buffers[1] has no bytes; give it a uri", MOTE_EINVAL},
+        {URI, URI ",\"byteLength\":105",
+         "k.gltf: buffers[0] has 104 bytes, and byteLength says 105; give all of", MOTE_EINVAL},
         {URI, "\"uri\":\"/k.bin\"", folder, MOTE_EINVAL},
+        {URI, "\"uri\":\"..\"", folder, MOTE_EINVAL},
+        {URI, "\"uri\":\"..a/b../...//k..bin\"", "buffer ..a/b../...//k..bin: ", MOTE_EIO},
+        {URI, "\"uri\":\".\"", "k.gltf: buffer .: not a regular file", MOTE_EINVAL},
         {URI, "\"uri\":\"a/../../k.bin\"", folder, MOTE_EINVAL},
         {URI, "\"uri\":\"a/%2E%2e/k.bin\"", folder, MOTE_EINVAL},
         {URI, "\"uri\":\"%2fk.bin\"", folder, MOTE_EINVAL},
-        {URI, "\"uri\":\"none.bin\"", "none.bin: ", MOTE_EIO},
+        {URI, "\"uri\":\"none.bin\"", "k.gltf: buffer none.bin: ", MOTE_EIO},
         {URI, "\"uri\":\"no%20k%00.bin\"", "no k%00.bin: ", MOTE_EIO},
-        {URI, "\"uri\":\"data:,AAAA\"", "data:,AAAA: ", MOTE_EIO},
+        {URI, "\"uri\":\"data:,AAAA\"", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":4100}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":8,\"byteStride\":24}", beyond, MOTE_EINVAL},
         {VIEW, "{\"buffer\":0,\"byteOffset\":-8}", offset, MOTE_EINVAL},
@@ -340,7 +362,7 @@ static chunks binary(size_t spaces, size_t text_more, size_t bytes_more)
 TEST(gltf_keys_of_a_binary_file_are_in_its_second_chunk)
 {
     static const char early[] = "k.glb: ends early; give the whole file",
-                      none[] = "k.glb: cubic keys in no buffer";
+                      none[] = "k.glb: buffers[0] has no bytes; give it a uri";
     const chunks whole = binary(0, 0, 0), far_text = binary(0, 1000, 0),
                  far_bytes = binary(0, 0, 1), odd = binary(2, 0, 0);
     const size_t text = whole.size - 104 - 8;
@@ -366,10 +388,9 @@ TEST(gltf_keys_of_a_binary_file_are_in_its_second_chunk)
     for (int k = 0; k < 18; ++k)
         wanted[k] = k + 1;
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        mote_rig rig = make_rig();
+        mote_rig rig;
         test_row("%zu: %zu bytes", i, rows[i].size);
-        const mote_status status =
-            mote_character_set_gltf_keys("k.glb", rows[i].file->data, rows[i].size, &rig);
+        const mote_status status = set_keys_of("k.glb", rows[i].file->data, rows[i].size, &rig);
         if (rows[i].says[0] ? status != MOTE_EINVAL || !strstr(mote_error_text(), rows[i].says)
                             : status != MOTE_OK)
             fail_msg("status %d: %s", (int)status, mote_error_text());

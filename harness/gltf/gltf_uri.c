@@ -1,4 +1,4 @@
-#include "harness/mesh/uri.h"
+#include "harness/gltf/gltf_uri.h"
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
@@ -16,7 +16,8 @@ static char escaped(const char *at)
     return (char)strtoul(digits, NULL, 16);
 }
 
-char *mote_uri_decode(const char *uri)
+/* A percent sign without two hexadecimal digits stays. */
+static char *decode(const char *uri)
 {
     char *decoded = mote_duplicate(uri), *to = decoded;
     for (const char *at = uri; *at; ++at) {
@@ -28,14 +29,20 @@ char *mote_uri_decode(const char *uri)
     return decoded;
 }
 
-char *mote_uri_path(const char *file, const char *uri)
+mote_status mote_gltf_path(const char *file, const char *uri, char **path)
 {
+    char *decoded = decode(uri);
     char *written = mote_path_beside(file, uri);
-    if (access(written, F_OK) == 0)
-        return written;
+    const bool is_there = mote_path_goes_down(uri) && access(written, F_OK) == 0;
+    mote_status status = MOTE_OK;
+    if (is_there || mote_path_goes_down(decoded))
+        *path = is_there ? mote_duplicate(written) : mote_path_beside(file, decoded);
+    else
+        status = mote_fail(MOTE_EINVAL,
+                           "%s: names %.200s, which is not in its folder; put that file beside "
+                           "it, or below",
+                           file, decoded);
     free(written);
-    char *decoded = mote_uri_decode(uri);
-    char *path = mote_path_beside(file, decoded);
     free(decoded);
-    return path;
+    return status;
 }
