@@ -248,8 +248,7 @@ static uint64_t bytes_read_for(const char *path, size_t bytes)
 static mote_status blame_reader(const char *path, const char *reader, mote_status status,
                                 const mote_child_limits *limits)
 {
-    const char *right =
-        is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ or OFF";
+    const char *right = is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ";
     if (status == MOTE_ENOMEM)
         return mote_fail(status,
                          "%s: needs more memory than the %zu MB that a file of this size gets; "
