@@ -235,7 +235,7 @@ static uint64_t bytes_read_for(const char *path, size_t bytes)
     char *output = NULL;
     size_t size = 0;
     uint64_t beside = 0;
-    if (has_ending(path, ".gltf") &&
+    if (mote_name_ends(path, ".gltf") &&
         mote_child_run(path, measure_in_child, (void *)(uintptr_t)path, limits_of(bytes),
                        &output, &size) == MOTE_OK &&
         size == sizeof beside)

@@ -200,11 +200,6 @@ SENTENCES = [
         min(at_least(*found) for found in found_slowdowns(root)))),
     ("docs/benchmarking.md", "{} of {} races named a slowdown of 3 % or more, wherever it was planted", lambda root: (
         planted(root, 3, 10))),
-    ("README.md", "On an idle machine, a slowdown of 2 % in a query of microseconds was found in {} of {} races, one of 1 % in {} of {}; "
-     "{} of {} races of unchanged builds saw a change", lambda root: (
-        *(value for size in (2, 1) for value in map(sum, zip(*(
-            planted(root, size, size, ("idle",), plant) for plant in ("certified query", "particle sweep"))))),
-        *unchanged(root))),
     ("docs/benchmarking.md", "Of 1 %, which is where a change begins to count, {} of {} did: {} of {} on the idle machine, {} "
      "of {} beside a compiler", lambda root: (
         *planted(root, 1, 1), *(value for place in QUIET for value in planted(root, 1, 1, (place,))))),
