@@ -53,14 +53,29 @@ mote_confidence mote_statistics_t_interval(const double *values, size_t count)
     return interval;
 }
 
-mote_confidence mote_statistics_share_interval(size_t successes, size_t trials)
+/* The quantile of a beta distribution, by bisection: gsl_cdf_beta_Pinv does not converge for
+   some parameters, such as 0.975 of 3 and 258. */
+static double beta_quantile(double p, double a, double b)
+{
+    double low = 0, high = 1, middle = 0.5;
+    while (middle > low && middle < high) {
+        if (gsl_cdf_beta_P(middle, a, b) < p)
+            low = middle;
+        else
+            high = middle;
+        middle = (low + high) / 2;
+    }
+    return high;
+}
+
+mote_confidence mote_statistics_share_interval(double successes, double trials)
 {
     mote_confidence interval = {MOTE_NONE, MOTE_NONE};
-    const double k = (double)successes, n = (double)trials;
-    if (trials == 0)
+    const double failures = trials - successes;
+    if (!(trials > 0))
         return interval;
-    interval.low = successes > 0 ? gsl_cdf_beta_Pinv(0.025, k, n - k + 1) : 0;
-    interval.high = successes < trials ? gsl_cdf_beta_Pinv(0.975, k + 1, n - k) : 1;
+    interval.low = successes > 0 ? beta_quantile(0.025, successes, failures + 1) : 0;
+    interval.high = failures > 0 ? beta_quantile(0.975, successes + 1, failures) : 1;
     return interval;
 }
 

@@ -35,8 +35,11 @@ double mote_statistics_mean(const double *values, size_t count);
 mote_confidence mote_statistics_t_interval(const double *values, size_t count);
 
 /* Clopper and Pearson's exact interval of a proportion: successes in independent trials.
-   MOTE_NONE without a trial. */
-mote_confidence mote_statistics_share_interval(size_t successes, size_t trials);
+   MOTE_NONE without a trial. A trial may succeed in part, as a group of events does whose
+   outcomes depend on each other: successes is then the sum of the parts, and the interval is
+   wider than needed by the less the events depend on each other (simulated in
+   tests/studies/interval_coverage.c). */
+mote_confidence mote_statistics_share_interval(double successes, double trials);
 
 /* Two-sided p of Student's t test that the mean is 0; MOTE_NONE below two values. */
 double mote_statistics_t_test(const double *values, size_t count);

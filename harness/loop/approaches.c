@@ -133,7 +133,7 @@ double mote_approaches_share(const mote_approaches *sum)
 
 mote_confidence mote_approaches_interval(const mote_approaches *sum)
 {
-    return mote_statistics_share_interval(sum->passes_through, sum->approaches);
+    return mote_statistics_share_interval((double)sum->passes_through, (double)sum->approaches);
 }
 
 double mote_approaches_delay(const mote_approaches *sum)

@@ -58,12 +58,12 @@ mote_status mote_claim_no_missed_contact(mote_study *study, mote_claim *claim)
         contacts += samples[s].of[MOTE_MEASURED_CONTACTS];
         missed += samples[s].of[MOTE_MEASURED_MISSED] * samples[s].of[MOTE_MEASURED_CONTACTS];
     }
-    const mote_estimate share = {
-        missed / contacts,
-        mote_statistics_share_interval((size_t)llround(missed), (size_t)contacts)};
+    /* The contacts of a start depend on each other, so it counts as one trial. */
+    const double starts = (double)study->seeds, part = missed / contacts;
+    const mote_estimate share = {part, mote_statistics_share_interval(part * starts, starts)};
     mote_claim_add(claim, mote_estimate_alone(round(missed)), "", "missed, of %.0f", contacts);
     mote_claim_require(claim, MOTE_AT_MOST, 0, 0);
-    mote_claim_add(claim, share, "", "share missed");
+    mote_claim_add(claim, share, "", "share missed, interval over %zu starts", study->seeds);
     return MOTE_OK;
 }
 

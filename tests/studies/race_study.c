@@ -343,7 +343,7 @@ static tally count_races(const char *lines, const char *place, const char *plant
 
 static void print_share(size_t successes, size_t trials)
 {
-    const mote_confidence c = mote_statistics_share_interval(successes, trials);
+    const mote_confidence c = mote_statistics_share_interval((double)successes, (double)trials);
     if (trials == 0)
         (void)printf(" - |");
     else
@@ -385,7 +385,7 @@ static void print_planted(const char *lines, size_t place, const kind *k, int si
         free(t.ratios);
         return;
     }
-    const mote_confidence c = mote_statistics_share_interval(t.slower, t.races);
+    const mote_confidence c = mote_statistics_share_interval((double)t.slower, (double)t.races);
     (void)printf("| %s, %s | %d %% |", k->name, place_titles[place], size);
     print_share(t.slower, t.races);
     if (k->slows_all)

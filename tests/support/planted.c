@@ -164,14 +164,16 @@ PLANT(mote_measure_cell, const mote_cell *cell, size_t limit, mote_cell_result *
     /* Times vary by a few per cent from seed to seed and method to method. */
     const uint64_t mixed = mote_hash_text(cell->choice->text) + cell->seed * 7919;
     const double waver = 1 + 0.03 * sin((double)(mixed % 1000));
+    const double ns = planted.ours_ns;
+    const bool seen = planted.contact_seen && cell->seed > planted.blind;
     *result = (mote_cell_result){.rows = calloc(cell->last, sizeof *result->rows)};
     need(result->rows != NULL);
     for (uint32_t f = cell->first; f <= cell->last; f += cell->stride) {
         mote_cell_row *row = &result->rows[result->row_count++];
         row->frame = f;
-        row->query_ns = (uint64_t)(planted.ours_ns * waver + f % 7);
+        row->query_ns = (uint64_t)(ns * waver + f % 7);
         row->answer.distance = (distance_at(f) + planted.error) * length;
-        row->answer.contact = planted.contact_seen && distance_at(f) == 0;
+        row->answer.contact = seen && distance_at(f) == 0;
         row->answer.witness[0] = row->answer.witness[1] =
             mote_vec3_make(planted.error * length, 0, 0);
         row->answer.counters.steps = (uint64_t)(1000 * waver) + f % 5;

@@ -7,15 +7,16 @@
 #include "harness/study/extreme.h"
 
 typedef struct plants {
-    long calls, failing;   /* calls so far that may fail; the one that does, or 0 */
-    long simulated;        /* rows of approaches so far */
-    const char *folder;    /* where scenarios are written */
-    double error;          /* of particles, in L */
-    double exponent;       /* of times, over any quantity */
-    double moving;         /* share of particles that move in each step but the last */
-    bool contact_seen;     /* particles saw the contact */
-    double ours_ns;        /* of particles and certified */
-    double trees_ratio;    /* how many times as long trees take */
+    long calls, failing; /* calls so far that may fail; the one that does, or 0 */
+    long simulated;      /* rows of approaches so far */
+    const char *folder;  /* where scenarios are written */
+    double error;        /* of particles, in L */
+    double exponent;     /* of times, over any quantity */
+    double moving;       /* share of particles that move in each step but the last */
+    bool contact_seen;   /* particles saw the contact */
+    uint64_t blind;      /* from starts with seeds up to this one they never do */
+    double ours_ns;      /* of particles and certified */
+    double trees_ratio;  /* how many times as long trees take */
     size_t rows;           /* rows of the run against hierarchies, PLANTED_ROWS at most */
     uint64_t passes;       /* of bodies through each other, with the paper's particles */
     bool others_pass;      /* exact methods let one pass */

@@ -71,10 +71,11 @@ TEST(t_interval_of_two_and_three_values_is_the_closed_form)
 
 TEST(share_interval_leaves_a_fortieth_on_each_side)
 {
-    static const size_t of[][2] = {{1, 2}, {5, 10}, {1, 40}, {39, 40}, {30, 1000}};
+    static const size_t of[][2] = {{1, 2},   {5, 10},  {1, 40},   {39, 40},
+                                   {2, 260}, {4, 358}, {30, 1000}};
     for (size_t i = 0; i < COUNT(of); ++i) {
         const size_t k = of[i][0], n = of[i][1];
-        mote_confidence interval = mote_statistics_share_interval(k, n);
+        mote_confidence interval = mote_statistics_share_interval((double)k, (double)n);
         assert_near(at_least(k, n, interval.low), 0.025, 1e-9);
         assert_near(1 - at_least(k + 1, n, interval.high), 0.025, 1e-9);
     }
@@ -90,6 +91,16 @@ TEST(share_interval_of_none_and_all_ends_at_0_and_1)
     assert_near(all.high, 1, 0);
     mote_confidence untried = mote_statistics_share_interval(0, 0);
     assert_true(isnan(untried.low) && isnan(untried.high));
+}
+
+/* Half a success has an interval between those of none and of one. */
+TEST(share_interval_of_parts_lies_between_those_of_wholes)
+{
+    const mote_confidence none = mote_statistics_share_interval(0, 32);
+    const mote_confidence half = mote_statistics_share_interval(0.5, 32);
+    const mote_confidence one = mote_statistics_share_interval(1, 32);
+    assert_true(none.low < half.low && half.low < one.low);
+    assert_true(none.high < half.high && half.high < one.high);
 }
 
 TEST(t_test_of_two_and_three_values_is_the_closed_form)

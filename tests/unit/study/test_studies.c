@@ -29,31 +29,45 @@ static const struct {
 } experiments[] = {MOTE_CLAIMS(EXPERIMENT) MOTE_REQUIREMENTS(EXPERIMENT)};
 enum { EXPERIMENTS = sizeof experiments / sizeof experiments[0] };
 
-static mote_status measure(size_t k, mote_claim_verdict *verdict)
+static mote_status measure_claim(size_t k, mote_claim *claim)
 {
     mote_study study;
-    mote_claim claim = {0};
     mote_status status = mote_study_open(base, true, &study);
     planted.calls = 0;
     if (status == MOTE_OK)
-        status = experiments[k].measure(&study, &claim);
-    *verdict = mote_claim_judge(&claim);
-    mote_claim_free(&claim);
+        status = experiments[k].measure(&study, claim);
     mote_study_close(&study);
     return status;
 }
 
+static mote_status measure(size_t k, mote_claim_verdict *verdict)
+{
+    mote_claim claim = {0};
+    const mote_status status = measure_claim(k, &claim);
+    *verdict = mote_claim_judge(&claim);
+    mote_claim_free(&claim);
+    return status;
+}
+
+/* The caller frees it. */
+static mote_claim claim_of(const char *name)
+{
+    mote_claim claim = {0};
+    size_t k = 0;
+    while (k < EXPERIMENTS && strcmp(experiments[k].name, name) != 0)
+        ++k;
+    if (k == EXPERIMENTS)
+        fail_msg("no experiment %s", name);
+    if (measure_claim(k, &claim) != MOTE_OK)
+        fail_msg("%s: %s", name, mote_error_text());
+    return claim;
+}
+
 static mote_claim_verdict verdict_of(const char *name)
 {
-    mote_claim_verdict verdict = MOTE_CLAIM_DOES_NOT_HOLD;
-    for (size_t k = 0; k < EXPERIMENTS; ++k) {
-        if (strcmp(experiments[k].name, name) != 0)
-            continue;
-        if (measure(k, &verdict) != MOTE_OK)
-            fail_msg("%s: %s", name, mote_error_text());
-        return verdict;
-    }
-    fail_msg("no experiment %s", name);
+    mote_claim claim = claim_of(name);
+    const mote_claim_verdict verdict = mote_claim_judge(&claim);
+    mote_claim_free(&claim);
     return verdict;
 }
 
@@ -83,6 +97,21 @@ TEST(claims_on_contacts_follow_what_was_seen)
     plant_good();
     planted.passes = 60;
     assert_int_equal(verdict_of("closed_loop"), MOTE_CLAIM_DOES_NOT_HOLD);
+}
+
+/* Two starts of 80 never see a contact, so their contacts are not twice twenty trials. */
+TEST(claim_on_contacts_counts_each_start_once)
+{
+    plant_good();
+    planted.blind = 2;
+    mote_claim claim = claim_of("passing_through");
+    const mote_confidence right = mote_statistics_share_interval(2, 80);
+    const mote_estimate *share = &claim.values[0].estimate;
+    assert_true(fabs(share->value - 2. / 80) < 1e-12);
+    assert_true(fabs(share->interval.low - right.low) < 1e-12);
+    assert_true(fabs(share->interval.high - right.high) < 1e-12);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
+    mote_claim_free(&claim);
 }
 
 TEST(claims_on_times_follow_the_times)
