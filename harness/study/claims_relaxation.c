@@ -90,17 +90,19 @@ static mote_status steps_to_rest(const mote_subject *subject, bool cold, uint64_
 
 /* Values for each size and seed. */
 typedef struct route_data {
-    double vertices[SIZES * ROUTE_SEEDS], cold[SIZES * ROUTE_SEEDS], warm[SIZES * ROUTE_SEEDS];
-    double route[SIZES * ROUTE_SEEDS];
+    double vertices[SIZES];
+    double cold[SIZES][ROUTE_SEEDS], warm[SIZES][ROUTE_SEEDS], route[SIZES][ROUTE_SEEDS];
     double cold_ratio[ROUTE_SEEDS], most_ratio[ROUTE_SEEDS]; /* over sizes: mean, largest */
     double root_ratio[ROUTE_SEEDS]; /* mean over sizes of cold steps / sqrt(vertices) */
-    size_t count;
+    size_t count;                   /* sizes measured so far */
 } route_data;
 
 static mote_status measure_size(const mote_subject *subject, size_t sizes, route_data *d,
                                 mote_text *curve)
 {
     const double vertices = subject->scenario->body[0].mesh->vertex_count;
+    const size_t at = d->count++;
+    d->vertices[at] = vertices;
     for (uint64_t s = 0; s < ROUTE_SEEDS; ++s) {
         double cold[2] = {0, 0}, warm[2] = {0, 0}, route = 0;
         mote_status status = steps_to_rest(subject, true, s + 1, cold);
@@ -110,11 +112,9 @@ static mote_status measure_size(const mote_subject *subject, size_t sizes, route
             status = longest_route(subject->scenario, s + 1, &route);
         if (status != MOTE_OK)
             return status;
-        const size_t at = d->count++;
-        d->vertices[at] = vertices;
-        d->cold[at] = cold[0];
-        d->warm[at] = fmax(warm[0], 1);
-        d->route[at] = route;
+        d->cold[at][s] = cold[0];
+        d->warm[at][s] = fmax(warm[0], 1);
+        d->route[at][s] = route;
         d->cold_ratio[s] += cold[0] / route / (double)sizes;
         d->root_ratio[s] += cold[0] / sqrt(vertices) / (double)sizes;
         d->most_ratio[s] = fmax(d->most_ratio[s], cold[1] / route);
@@ -124,12 +124,12 @@ static mote_status measure_size(const mote_subject *subject, size_t sizes, route
     return MOTE_OK;
 }
 
-static mote_status add_exponent(mote_claim *claim, const route_data *d, const double *steps,
-                                const char *name)
+static mote_status add_exponent(mote_claim *claim, const route_data *d,
+                                const double steps[][ROUTE_SEEDS], const char *name)
 {
     mote_estimate exponent;
-    const mote_status status = mote_statistics_exponent(d->vertices, steps, d->count,
-                                                        &exponent.value, &exponent.interval);
+    const mote_status status =
+        mote_estimate_exponent(d->vertices, steps[0], d->count, ROUTE_SEEDS, &exponent);
     if (status == MOTE_OK)
         mote_claim_add(claim, exponent, "", "exponent of %s over vertices", name);
     return status;

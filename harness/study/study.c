@@ -227,6 +227,18 @@ mote_estimate mote_estimate_ratio(const double *values, size_t count)
     return made;
 }
 
+mote_status mote_estimate_exponent(const double *x, const double *y, size_t sizes, size_t seeds,
+                                   mote_estimate *exponent)
+{
+    double *means = mote_allocate(sizes, sizeof *means);
+    for (size_t i = 0; i < sizes; ++i)
+        means[i] = mote_estimate_ratio(y + i * seeds, seeds).value;
+    const mote_status status =
+        mote_statistics_exponent(x, means, sizes, &exponent->value, &exponent->interval);
+    free(means);
+    return status;
+}
+
 static bool is_share(mote_measured which)
 {
     return which == MOTE_MEASURED_EXACT || which == MOTE_MEASURED_TRACKED ||

@@ -91,6 +91,12 @@ mote_estimate mote_estimate_make(const double *values, size_t count);
    logarithms. */
 mote_estimate mote_estimate_ratio(const double *values, size_t count);
 
+/* The exponent e of y ~ x^e, robust; x[sizes], y[sizes][seeds]. What a size deviates from a
+   power is shared by its seeds, so a size counts once, by the mean logarithm of its seeds, and
+   the interval has sizes - 2 degrees of freedom. MOTE_NONE below four sizes. MOTE_ENUMERIC. */
+mote_status mote_estimate_exponent(const double *x, const double *y, size_t sizes, size_t seeds,
+                                   mote_estimate *exponent);
+
 /* The mean of one measure over samples. The interval of a share is cut to 0 .. 1. */
 mote_estimate mote_sample_estimate(const mote_sample *samples, size_t count,
                                    mote_measured which);

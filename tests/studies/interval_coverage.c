@@ -1,10 +1,12 @@
-/* make test-statistics: how often intervals of the median cover it, and how often a comparison
-   of a method with itself, or with one that takes 10 % longer, says faster or slower. The
+/* make test-statistics: how often intervals of the median, of a share and of an exponent cover
+   it, and how often a comparison of a method with itself, or with one that takes 10 % longer,
+   says faster or slower. The
    simulated processes have frames that depend on each other as real ones do: every process has
    a level of its own, all run the same frames, and neighbouring frames share their disturbance.
    Usage: interval_coverage [SETS]. */
 #include "harness/base/options.h"
 #include "harness/base/statistics.h"
+#include "harness/study/study.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -81,6 +83,70 @@ static double alarms_of(gsl_rng *random, double factor, int comparisons)
     return (double)alarms / comparisons;
 }
 
+enum { CONTACTS = 5 };
+
+/* The share of contacts missed by one start. Those of a start depend on each other: the chance
+   to miss one differs from start to start (a beta distribution with this mean), or all share
+   their fate. */
+static double draw_start(gsl_rng *random, double mean, bool all)
+{
+    if (all)
+        return gsl_rng_uniform(random) < mean ? 1 : 0;
+    const double beta = 0.3, chance = gsl_ran_beta(random, beta * mean / (1 - mean), beta);
+    return (double)gsl_ran_binomial(random, chance, CONTACTS) / CONTACTS;
+}
+
+/* The share of data sets whose interval covers the true share of contacts missed. */
+static double cover_share(gsl_rng *random, size_t starts, double mean, bool all, int sets)
+{
+    int covered = 0;
+    for (int set = 0; set < sets; ++set) {
+        double sum = 0;
+        for (size_t s = 0; s < starts; ++s)
+            sum += draw_start(random, mean, all);
+        const mote_confidence interval = mote_statistics_share_interval(sum, (double)starts);
+        covered += interval.low <= mean && mean <= interval.high ? 1 : 0;
+    }
+    return (double)covered / sets;
+}
+
+/* The least of these over several means; with few starts, most data sets have none missed. */
+static double least_cover_of_share(gsl_rng *random, int sets)
+{
+    static const double means[] = {0.003, 0.01, 0.025, 0.05, 0.2};
+    double least = 1;
+    for (size_t i = 0; i < sizeof means / sizeof means[0]; ++i) {
+        for (int k = 0; k < 4; ++k)
+            least = fmin(least, cover_share(random, k < 2 ? 32 : 256, means[i], k % 2, sets));
+    }
+    return least;
+}
+
+#define EXPONENT 1.6
+
+/* The share of data sets whose interval covers the true exponent, of times that deviate from
+   the power with the size by 5 % and with the seed by 2 %. */
+static mote_status cover_exponent(gsl_rng *random, size_t sizes, int sets, double *share)
+{
+    enum { SEEDS = 5, SIZES_MAX = 8 };
+    double x[SIZES_MAX], y[SIZES_MAX * SEEDS];
+    int covered = 0;
+    mote_status status = MOTE_OK;
+    for (int set = 0; set < sets && status == MOTE_OK; ++set) {
+        for (size_t i = 0; i < sizes; ++i) {
+            x[i] = pow(2, (double)i);
+            const double mean = pow(x[i], EXPONENT) * exp(gsl_ran_gaussian(random, 0.05));
+            for (size_t s = 0; s < SEEDS; ++s)
+                y[i * SEEDS + s] = mean * exp(gsl_ran_gaussian(random, 0.02));
+        }
+        mote_estimate e;
+        status = mote_estimate_exponent(x, y, sizes, SEEDS, &e);
+        covered += e.interval.low <= EXPONENT && EXPONENT <= e.interval.high ? 1 : 0;
+    }
+    *share = (double)covered / sets;
+    return status;
+}
+
 static int judge(const char *what, double share, double least, double most)
 {
     int failed = share < least || share > most;
@@ -98,12 +164,14 @@ int main(int argc, char **argv)
     }
     const int sets = (int)given;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    double five, twenty;
+    double five, twenty, four, seven;
     if (!random)
         return 1;
     gsl_rng_set(random, 20030901);
     if (cover(random, 5, sets, &five) != MOTE_OK ||
-        cover(random, 20, sets, &twenty) != MOTE_OK) {
+        cover(random, 20, sets, &twenty) != MOTE_OK ||
+        cover_exponent(random, 4, sets, &four) != MOTE_OK ||
+        cover_exponent(random, 7, sets, &seven) != MOTE_OK) {
         (void)fprintf(stderr, "coverage: %s\n", mote_error_text());
         return 1;
     }
@@ -113,6 +181,10 @@ int main(int argc, char **argv)
                     0, 0.05);
     failed += judge("comparisons with one that takes 10 % longer that do",
                     alarms_of(random, 1.1, 200), 0.9, 1);
+    failed += judge("intervals of shares of dependent events cover them",
+                    least_cover_of_share(random, sets), 0.93, 1);
+    failed += judge("intervals of an exponent over 4 sizes cover it", four, 0.93, 1);
+    failed += judge("intervals of an exponent over 7 sizes cover it", seven, 0.92, 0.97);
     gsl_rng_free(random);
     return failed ? 1 : 0;
 }

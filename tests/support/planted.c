@@ -91,6 +91,8 @@ PLANT(mote_statistics_exponent, const double *x, const double *y, size_t count,
       double *exponent, mote_confidence *interval)
 {
     need(count >= 4 && x[0] > 0 && y[0] > 0);
+    for (size_t i = 1; i < count; ++i)
+        need(x[i] > x[i - 1]); /* a point a size */
     *exponent = planted.exponent;
     *interval = (mote_confidence){planted.exponent - 0.01, planted.exponent + 0.01};
     return due("mote_statistics_exponent");
@@ -122,7 +124,7 @@ PLANT(mote_scenario_load, const char *name, mote_scenario **scenario)
         "{\"purpose\": \"planted\", \"frames\": 2000, \"ask\": \"distance\", "
         "\"bodies\": [{\"letter\": \"T\", \"triangles\": %d}, {\"letter\": \"T\", "
         "\"triangles\": 400, \"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}]}]}",
-        400 + 40 * (int)wished);
+        400 + 10 * (int)(4 * wished));
     need(mote_file_write(path, text.data, text.size) == MOTE_OK);
     status = __real_mote_scenario_load(path, scenario); /* loads the letters */
     free(text.data);
@@ -164,7 +166,7 @@ PLANT(mote_measure_cell, const mote_cell *cell, size_t limit, mote_cell_result *
     /* Times vary by a few per cent from seed to seed and method to method. */
     const uint64_t mixed = mote_hash_text(cell->choice->text) + cell->seed * 7919;
     const double waver = 1 + 0.03 * sin((double)(mixed % 1000));
-    const double ns = planted.ours_ns;
+    const double ns = planted.ours_ns * (planted.slowdown ? planted.slowdown(cell) : 1);
     const bool seen = planted.contact_seen && cell->seed > planted.blind;
     *result = (mote_cell_result){.rows = calloc(cell->last, sizeof *result->rows)};
     need(result->rows != NULL);

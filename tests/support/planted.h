@@ -4,6 +4,7 @@
 #ifndef MOTE_TESTS_PLANTED_H
 #define MOTE_TESTS_PLANTED_H
 
+#include "harness/run/cell.h"
 #include "harness/study/extreme.h"
 
 typedef struct plants {
@@ -13,10 +14,12 @@ typedef struct plants {
     double error;        /* of particles, in L */
     double exponent;     /* of times, over any quantity */
     double moving;       /* share of particles that move in each step but the last */
-    bool contact_seen;   /* particles saw the contact */
-    uint64_t blind;      /* from starts with seeds up to this one they never do */
-    double ours_ns;      /* of particles and certified */
-    double trees_ratio;  /* how many times as long trees take */
+    double (*slowdown)(const mote_cell *cell); /* a factor on the time of a cell measured in
+                                                  this process; NULL: 1 */
+    bool contact_seen;                         /* particles saw the contact */
+    uint64_t blind;        /* from starts with seeds up to this one they never do */
+    double ours_ns;        /* of particles and certified */
+    double trees_ratio;    /* how many times as long trees take */
     size_t rows;           /* rows of the run against hierarchies, PLANTED_ROWS at most */
     uint64_t passes;       /* of bodies through each other, with the paper's particles */
     bool others_pass;      /* exact methods let one pass */

@@ -107,6 +107,29 @@ TEST(estimate_of_ratios_is_their_geometric_mean)
     assert_true(fabs(e.interval.low * e.interval.high - 16) < 1e-9 && e.interval.low > 0);
 }
 
+/* Sizes that deviate from the power by up to a fifth: more seeds, which share it, tell nothing
+   more about the exponent. */
+TEST(estimate_of_exponent_counts_each_size_once)
+{
+    enum { SIZES = 6, SEEDS = 5 };
+    static const double off[SIZES] = {1, 1.2, 0.9, 1.1, 0.85, 1};
+    double x[SIZES], y[SIZES], repeated[SIZES * SEEDS];
+    mote_estimate one, many, few;
+    for (size_t i = 0; i < SIZES; ++i) {
+        x[i] = pow(2, (double)i);
+        y[i] = x[i] * x[i] * off[i];
+        for (size_t s = 0; s < SEEDS; ++s)
+            repeated[i * SEEDS + s] = y[i] * (1 + 0.01 * ((double)s - 2));
+    }
+    assert_int_equal(mote_estimate_exponent(x, y, SIZES, 1, &one), MOTE_OK);
+    assert_int_equal(mote_estimate_exponent(x, repeated, SIZES, SEEDS, &many), MOTE_OK);
+    assert_true(fabs(many.value - one.value) < 1e-9);
+    assert_true(fabs(many.interval.low - one.interval.low) < 1e-9);
+    assert_true(many.interval.high - many.interval.low > 0.1);
+    assert_int_equal(mote_estimate_exponent(x, repeated, 3, SEEDS, &few), MOTE_OK);
+    assert_true(isnan(few.value) && isnan(few.interval.low));
+}
+
 /* A small variant of a scene; its queries allocate nothing once warm. */
 TEST(queries_from_frame_50_on_allocate_nothing)
 {

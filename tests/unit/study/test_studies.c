@@ -114,6 +114,49 @@ TEST(claim_on_contacts_counts_each_start_once)
     mote_claim_free(&claim);
 }
 
+/* Whether a cell is one without the cache of distant particles. */
+static bool is_without_cache(const mote_cell *cell)
+{
+    static const char none[] = "far_cache=0";
+    const char *at = strstr(cell->choice->text, none);
+    return at && at[sizeof none - 1] != '.';
+}
+
+/* The cache gains in the ten starts on which settings are compared, by luck. */
+static double gain_by_luck(const mote_cell *cell)
+{
+    return cell->seed <= 10 && is_without_cache(cell) ? 2 : 1;
+}
+
+/* The first of each two measurements takes longer. */
+static double fall_in_pairs(const mote_cell *cell)
+{
+    static bool second;
+    (void)cell;
+    second = !second;
+    return second ? 1.5 : 1;
+}
+
+static double gain(const mote_cell *cell)
+{
+    return is_without_cache(cell) ? 2 : 1;
+}
+
+TEST(claim_on_the_cache_is_judged_on_other_starts_in_either_order)
+{
+    static double (*const none[])(const mote_cell *) = {gain_by_luck, fall_in_pairs};
+    plant_good();
+    planted.slowdown = gain;
+    assert_int_equal(verdict_of("distant_cache"), MOTE_CLAIM_HOLDS);
+    for (size_t i = 0; i < ROWS_OF(none); ++i) {
+        planted.slowdown = none[i];
+        mote_claim claim = claim_of("distant_cache");
+        assert_true(fabs(claim.values[0].estimate.value - 1) < 0.06);
+        assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+        mote_claim_free(&claim);
+    }
+}
+
 TEST(claims_on_times_follow_the_times)
 {
     plant_good();
