@@ -158,13 +158,15 @@ double mote_cell_worst(const mote_stored_cell *cell)
     return quantile_total(cell, 1);
 }
 
-/* Collects the values of a row's replicates that ran well. */
-static size_t values_of(const mote_summary_row *row, mote_cell_value value, double *values)
+size_t mote_row_pairs(const mote_summary_row *over, const mote_summary_row *under,
+                      mote_cell_pair pairs[MOTE_STUDY_SEEDS])
 {
     size_t count = 0;
-    for (size_t r = 0; r < row->replicates && count < MOTE_STUDY_SEEDS; ++r) {
-        if (row->cells[r].status == MOTE_CELL_OK)
-            values[count++] = value(&row->cells[r]);
+    for (size_t r = 0; r < over->replicates && count < MOTE_STUDY_SEEDS; ++r) {
+        const mote_stored_cell *cell = &over->cells[r];
+        const mote_stored_cell *other = mote_summary_replicate(under, cell->replicate);
+        if (mote_stored_ran(cell) && other)
+            pairs[count++] = (mote_cell_pair){cell, other};
     }
     return count;
 }
@@ -172,16 +174,21 @@ static size_t values_of(const mote_summary_row *row, mote_cell_value value, doub
 mote_estimate mote_row_estimate(const mote_summary_row *row, mote_cell_value value)
 {
     double values[MOTE_STUDY_SEEDS] = {0};
-    return mote_estimate_ratio(values, values_of(row, value, values));
+    size_t count = 0;
+    for (size_t r = 0; r < row->replicates && count < MOTE_STUDY_SEEDS; ++r) {
+        if (mote_stored_ran(&row->cells[r]))
+            values[count++] = value(&row->cells[r]);
+    }
+    return mote_estimate_ratio(values, count);
 }
 
 mote_estimate mote_row_ratio(const mote_summary_row *over, const mote_summary_row *under,
                              mote_cell_value value)
 {
-    double a[MOTE_STUDY_SEEDS] = {0}, b[MOTE_STUDY_SEEDS] = {0};
-    const size_t first = values_of(over, value, a), second = values_of(under, value, b);
-    const size_t count = first < second ? first : second;
-    for (size_t r = 0; r < count; ++r)
-        a[r] /= b[r];
-    return mote_estimate_ratio(a, count);
+    mote_cell_pair pairs[MOTE_STUDY_SEEDS];
+    double ratios[MOTE_STUDY_SEEDS] = {0};
+    const size_t count = mote_row_pairs(over, under, pairs);
+    for (size_t i = 0; i < count; ++i)
+        ratios[i] = value(pairs[i].over) / value(pairs[i].under);
+    return mote_estimate_ratio(ratios, count);
 }

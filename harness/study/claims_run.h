@@ -18,8 +18,17 @@ double mote_cell_mean(const mote_stored_cell *cell);
 double mote_cell_p95(const mote_stored_cell *cell);
 double mote_cell_worst(const mote_stored_cell *cell);
 
-/* The mean over replicates that ran well of a row's value, and of the ratio of two rows'
-   values. */
+/* Two rows' replicates of one number, which the run measured one after the other. */
+typedef struct mote_cell_pair {
+    const mote_stored_cell *over, *under;
+} mote_cell_pair;
+
+/* The pairs of replicates that ran well in both rows; returns how many. */
+size_t mote_row_pairs(const mote_summary_row *over, const mote_summary_row *under,
+                      mote_cell_pair pairs[MOTE_STUDY_SEEDS]);
+
+/* The geometric mean of a row's value over the replicates that ran well, and of the ratio of
+   two rows' values over their pairs of replicates. */
 mote_estimate mote_row_estimate(const mote_summary_row *row, mote_cell_value value);
 mote_estimate mote_row_ratio(const mote_summary_row *over, const mote_summary_row *under,
                              mote_cell_value value);

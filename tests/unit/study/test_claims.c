@@ -2,6 +2,7 @@
 #include "harness/study/claims.h"
 
 #include "harness/figure/figure.h"
+#include "harness/study/claims_run.h"
 #include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -128,6 +129,29 @@ TEST(estimate_of_exponent_counts_each_size_once)
     assert_true(many.interval.high - many.interval.low > 0.1);
     assert_int_equal(mote_estimate_exponent(x, repeated, 3, SEEDS, &few), MOTE_OK);
     assert_true(isnan(few.value) && isnan(few.interval.low));
+}
+
+/* Replicate 2 of one row and 1 of the other crashed: what is left in common is replicate 3. */
+TEST(ratio_of_rows_pairs_replicates_by_number)
+{
+    double times[] = {10, 20, 40};
+    mote_stored_cell cells[2][3];
+    mote_summary_row rows[2];
+    for (size_t k = 0; k < 2; ++k) {
+        for (uint32_t r = 0; r < 3; ++r) {
+            const bool ran = r != 1 - k;
+            cells[k][r] = (mote_stored_cell){.status = ran ? MOTE_CELL_OK : MOTE_CELL_CRASHED,
+                                             .replicate = r + 1,
+                                             .frames = ran ? 1 : 0,
+                                             .total_ns = &times[r]};
+        }
+        rows[k] = (mote_summary_row){.cells = cells[k], .replicates = 3};
+    }
+    mote_cell_pair pairs[MOTE_STUDY_SEEDS];
+    assert_int_equal(mote_row_pairs(&rows[0], &rows[1], pairs), 1);
+    assert_true(pairs[0].over == &cells[0][2] && pairs[0].under == &cells[1][2]);
+    const mote_estimate ratio = mote_row_ratio(&rows[0], &rows[1], mote_cell_median);
+    assert_true(fabs(ratio.value - 1) < 1e-12);
 }
 
 /* A small variant of a scene; its queries allocate nothing once warm. */
@@ -266,6 +290,68 @@ TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
     assert_true(claim.values[1].estimate.value == 5); /* of 3 and 7; then 4 alone */
     assert_true(isnan(claim.values[3].estimate.value));
     assert_false(mote_claim_met(&claim.values[3], claim.values[3].limits));
+    mote_claim_free(&claim);
+    mote_summary_free(&study.summary);
+}
+
+/* In the slowest frame a third of the processes is fast, as their particles started elsewhere.
+ */
+TEST(slowest_frame_has_no_interval_below_the_mean)
+{
+    mote_study study = {.summarised = true};
+    mote_claim claim = {0};
+    for (int r = 1; r <= 6; ++r) {
+        stored_cell_put("six", (stored_cell){.scenario = "ww",
+                                             .method = "particle-paper",
+                                             .parameters = "{\"n\": 5}",
+                                             .replicate = r,
+                                             .rows = r % 3 ? "2,0,0,9e6,1,0,0,0,7\n"
+                                                             "3,0,0,3e6,1,0,0,0,7\n"
+                                                           : "2,0,0,1e6,1,0,0,0,7\n"
+                                                             "3,0,0,3e6,1,0,0,0,7\n"});
+    }
+    stored_cell_put("six", (stored_cell){.scenario = "tt",
+                                         .method = "particle-paper",
+                                         .id = "tt",
+                                         .parameters = "{\"n\": 3}",
+                                         .rows = "2,0,0,1e6,1,0,0,0,7\n"});
+    assert_int_equal(mote_summary_make("six", &study.summary), MOTE_OK);
+    assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);
+    assert_non_null(strstr(claim.values[0].name, "mean of the active interval"));
+    assert_non_null(strstr(claim.values[1].name, "slowest frame of it, median over processes"));
+    assert_true(claim.values[1].estimate.value == 9);
+    assert_true(isnan(claim.values[1].estimate.interval.low));
+    mote_claim_free(&claim);
+    mote_summary_free(&study.summary);
+}
+
+/* One engine is fastest by the frames' medians over processes, but slow in one process; the
+   figure shown is the mean over processes of their medians, by which the other is. */
+TEST(best_engine_is_that_of_the_ratio_shown)
+{
+    static const struct {
+        const char *method, *usual, *last; /* the row of two processes, and of the third */
+    } rows[] = {{"certified", "1,0,0,1,1,0,0,0,7\n", "1,0,0,1,1,0,0,0,7\n"},
+                {"fcl-aabb", "1,0,0,10,1,0,0,0,7\n", "1,0,0,1000,1,0,0,0,7\n"},
+                {"fcl-obbrss", "1,0,0,20,1,0,0,0,7\n", "1,0,0,20,1,0,0,0,7\n"}};
+    mote_study study = {.summarised = true};
+    mote_claim claim = {0};
+    for (size_t m = 0; m < ROWS_OF(rows); ++m) {
+        for (int r = 1; r <= 3; ++r)
+            stored_cell_put("best",
+                            (stored_cell){.scenario = "ww",
+                                          .method = rows[m].method,
+                                          .replicate = r,
+                                          .frames = "[1, 1]",
+                                          .rows = r < 3 ? rows[m].usual : rows[m].last});
+    }
+    assert_int_equal(mote_summary_make("best", &study.summary), MOTE_OK);
+    /* Only one of the three scenes is there. */
+    assert_int_equal(mote_claim_best_engine_distance(&study, &claim), MOTE_ENUMERIC);
+    assert_non_null(strstr(claim.values[0].name, "ww, median: fcl-obbrss"));
+    assert_true(fabs(claim.values[0].estimate.value - 20) < 1e-9);
+    assert_non_null(strstr(claim.values[1].name, "ww, mean: fcl-aabb"));
+    assert_true(fabs(claim.values[1].estimate.value - 10) < 1e-9);
     mote_claim_free(&claim);
     mote_summary_free(&study.summary);
 }
