@@ -6,19 +6,30 @@ from tables.records import file_of
 CLAIMS = "claims/claims.json"
 
 
+def bound(value):
+    """The thresholds of a value: for "holds", for "holds within limits", or one for both."""
+    unit = " " * bool(value["unit"]) + value["unit"]
+    holds, limits = value["threshold"]["holds"], value["threshold"]["limits"]
+    levels = [f"{number:.4g}{unit}{level}" for number, level in
+              ([(holds, "")] if holds == limits else [(holds, " to hold"), (limits, " within limits")])
+              if number is not None]
+    return f"{value['threshold']['bound']} {', '.join(levels)}"
+
+
 def measured(value):
-    """A value of a claim that its verdict follows from: name, value and interval, with three digits."""
+    """A value of a claim that its verdict follows from: name, value and interval, with three digits, and its bound."""
     def shown(number):
         return "0" if value["unit"] == "L" and abs(number) < 1e-9 else f"{number:.3g}"
+    name = value["name"].strip()
     if value["value"] is None:
-        return f"{value['name'].strip()}: not measured"
+        return f"{name}: not measured, {bound(value)}"
     low, high = value["interval"] or (None, None)
     ends = "" if low == high else f" ({shown(low)} to {shown(high)})"
-    return f"{value['name'].strip()}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}"
+    return f"{name}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}, {bound(value)}"
 
 
 def claims_table(root):
-    yield "| claim | paper | verdict | measured |"
+    yield "| claim | section | verdict | measured |"
     yield "| --- | --- | --- | --- |"
     for claim in json.loads(file_of(root, CLAIMS).read_text()):
         values = "; ".join(measured(value) for value in claim["values"] if value["threshold"])
