@@ -32,7 +32,7 @@
 #   make impact-speed [PROFILE=quick|full] [OUT=DIR] impacts within steps: certified, samples, others
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1]  what was tried, how often, what failed
-#   make fuzz [SECONDS=60] [TARGET=mesh]             what comes from outside, fuzzed (libFuzzer)
+#   make fuzz [SECONDS=60] [TARGET=mesh] [RECORD=1]  what comes from outside, fuzzed (libFuzzer)
 #   make determinism [RUNS=56]                       one hash over all answers: compilers, threads
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop

@@ -2,7 +2,7 @@
    case that fails is shrunk and kept as DIR/cases/SEED.json; to make it a test, put it into
    tests/cases, with mesh paths relative to there. Usage: soak [--hours H | --cases N] [--seed
    S] [--out DIR] [--checks FILE] [--plant], or soak --replay FILE...: S is the first case's
-   seed; DIR/soak.json and soak.csv have each method's errors by decades; --plant alters two
+   seed; DIR/soak.json has each method's errors by decades; --plant alters two
    answers of the first case, which must then be found. Exit status 1 where something failed. */
 #include "tests/support/checks.h"
 
@@ -155,26 +155,6 @@ static mote_status write_json(const soak *s)
     return written == 0 ? MOTE_OK : mote_fail(MOTE_EIO, "cannot write %s", path);
 }
 
-/* Writes a line a method: how many errors lie in each decade of L, the first below 1e-16. */
-static mote_status write_csv(const soak *s)
-{
-    char path[4096];
-    (void)snprintf(path, sizeof path, "%s/soak.csv", s->out);
-    FILE *file = fopen(path, "w");
-    if (!file)
-        return mote_fail(MOTE_EIO, "cannot write %s: %s", path, strerror(errno));
-    for (int m = 0; m < SOAK_METHODS; ++m) {
-        const soak_tally *t = &s->sum[m];
-        fprintf(file, "\"%s\",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.17g", soak_methods[m],
-                t->queries, t->missed, t->false_contacts, t->largest);
-        for (int k = 0; k < SOAK_DECADES; ++k)
-            fprintf(file, ",%" PRIu64, t->decades[k]);
-        fputc('\n', file);
-    }
-    const bool lost = ferror(file) != 0;
-    return fclose(file) == 0 && !lost ? MOTE_OK : mote_fail(MOTE_EIO, "cannot write %s", path);
-}
-
 static void print(const soak *s)
 {
     const soak_tally certified = certified_sum(s);
@@ -274,8 +254,6 @@ int main(int argc, char **argv)
     }
     if (status == MOTE_OK)
         status = write_json(&s);
-    if (status == MOTE_OK)
-        status = write_csv(&s);
     if (status != MOTE_OK) {
         fprintf(stderr, "soak: %s\n", mote_error_text());
         return 4;
