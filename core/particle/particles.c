@@ -91,6 +91,20 @@ static mote_status check_single(double length)
                      length);
 }
 
+/* Before anything is allocated by it, and before a body's components are looked at. */
+static mote_status check_count(const mote_body *const bodies[2], uint32_t count)
+{
+    for (int b = 0; b < 2; ++b) {
+        const uint32_t vertices = bodies[b]->mesh->vertex_count;
+        if (count < 1 || count > vertices)
+            return mote_fail(MOTE_EINVAL,
+                             "n=%u is not valid; body %d has %u vertices, so n must be from 1 "
+                             "to %u",
+                             count, b, vertices, vertices);
+    }
+    return MOTE_OK;
+}
+
 mote_status mote_particles_create(const mote_body *const bodies[2], double length,
                                   const mote_particles_options *options,
                                   mote_particles **particles)
@@ -102,16 +116,10 @@ mote_status mote_particles_create(const mote_body *const bodies[2], double lengt
     made->length = length;
     made->inverse_square_length = 1 / length / length;
     mote_status status = options->single ? check_single(length) : MOTE_OK;
+    if (status == MOTE_OK)
+        status = check_count(bodies, options->count);
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
-        /* Checked before anything is allocated by it. */
-        if (options->count < 1 || options->count > bodies[b]->mesh->vertex_count)
-            status = mote_fail(MOTE_EINVAL,
-                               "n=%u is not valid; body %d has %u vertices, so n must "
-                               "be from 1 to %u",
-                               options->count, b, bodies[b]->mesh->vertex_count,
-                               bodies[b]->mesh->vertex_count);
-        if (status == MOTE_OK)
-            status = allocate_body(made, bodies[b], b);
+        status = allocate_body(made, bodies[b], b);
         if (status == MOTE_OK)
             status = mote_start_vertices(bodies[b]->mesh, options->count, options->start,
                                          options->seed + (uint64_t)b, made->first[b]);

@@ -449,6 +449,42 @@ TEST(hybrid_on_more_components_than_particles_raises_their_number)
     }
 }
 
+/* Sixteen components or one of four vertices: no n can be right for both bodies. Neither the
+   automatic n nor a valid one is refused as if the user had written another; an n that is more
+   than the vertices of a body is an error. */
+TEST(particles_on_more_components_than_the_other_body_has_vertices_are_unsupported)
+{
+    static const struct {
+        variant v;
+        mote_status status;
+        const char *says;
+    } rows[] = {
+        {{"hybrid-fcl", ""}, MOTE_EUNSUPPORTED, "4 particles on a body of 16 connected"},
+        {{"hybrid-fcl", "n=2"}, MOTE_EUNSUPPORTED, "2 particles on a body of 16 connected"},
+        {{"hybrid-fcl", "n=8"}, MOTE_EINVAL, "n=8 is not valid; body 1 has 4 vertices, so n"},
+        {{"particle", "forces=on"}, MOTE_EUNSUPPORTED, "4 particles on a body of 16 connected"},
+        {{"particle", ""}, MOTE_OK, ""},
+        {{"particle-paper", ""}, MOTE_EUNSUPPORTED, "4 particles on a body of 16 connected"},
+        {{"particle-paper", "n=8"}, MOTE_EINVAL, "n=8 is not valid; body 1 has 4 vertices"},
+    };
+    scene s;
+    scene_init_meshes(&s, make_row(16, 0), make_row(1, 2.5), false);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        double values[MOTE_PARAMETERS_MAX];
+        const mote_method *method = method_with(rows[i].v.method, rows[i].v.options, values);
+        const mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, values);
+        void *state = NULL;
+        test_row("%s:%s", rows[i].v.method, rows[i].v.options);
+        const mote_status status = method->create(&setup, &state);
+        assert_int_equal(status, rows[i].status);
+        if (status == MOTE_OK)
+            method->destroy(state);
+        else
+            assert_non_null(strstr(mote_error_text(), rows[i].says));
+    }
+    scene_free(&s);
+}
+
 TEST(traits_follow_the_parameters)
 {
     static const struct {
