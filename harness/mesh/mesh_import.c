@@ -25,7 +25,7 @@ typedef struct header {
     mote_import import;
 } header;
 
-/* Reads a format that we parse ourselves. */
+/* Reads a format whose vertices have numbers of their own: they stay apart. */
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
                              mote_soup *soup)
 {
@@ -45,32 +45,51 @@ static bool is_off_file(const char *path)
     return mote_name_ends(path, ".off");
 }
 
-static bool is_read_by_us(const char *path)
+static bool is_text_file(const char *path)
 {
     return is_off_file(path) || mote_name_ends(path, ".obj");
 }
 
-static mote_status read_soup(const char *path, mote_soup *soup)
+static bool is_ply_file(const char *path)
 {
-    char *text;
-    size_t size;
-    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
-    if (status != MOTE_OK)
-        return status;
-    if (size == 0)
-        status = mote_soup_refuse_empty(path);
-    else if (is_read_by_us(path))
-        status = read_text(path, text, size, is_off_file(path), soup);
-    else
-        status = mote_soup_check_text(path, text, size);
-    free(text);
-    if (status != MOTE_OK || is_read_by_us(path))
-        return status;
-    status = mote_soup_read_assimp(path, soup);
+    return mote_name_ends(path, ".ply");
+}
+
+/* Reads a format whose files may have several vertices at one place: PLY, or one of assimp's.
+ */
+static mote_status read_to_weld(const char *path, const char *data, size_t size,
+                                mote_soup *soup)
+{
+    mote_frame_file file = {0};
+    mote_status status = MOTE_OK;
+    if (is_ply_file(path)) {
+        status = mote_frame_file_read_ply(path, data, size, &file, soup);
+    } else {
+        status = mote_soup_check_text(path, data, size);
+        if (status == MOTE_OK)
+            status = mote_soup_read_assimp(path, soup);
+    }
     if (status != MOTE_OK)
         return status;
     mote_soup_weld(soup);
     return mote_soup_refuse_collapsed(path, soup);
+}
+
+static mote_status read_soup(const char *path, mote_soup *soup)
+{
+    char *data;
+    size_t size;
+    mote_status status = mote_file_read(path, FILE_LIMIT, &data, &size);
+    if (status != MOTE_OK)
+        return status;
+    if (size == 0)
+        status = mote_soup_refuse_empty(path);
+    else if (is_text_file(path))
+        status = read_text(path, data, size, is_off_file(path), soup);
+    else
+        status = read_to_weld(path, data, size, soup);
+    free(data);
+    return status;
 }
 
 /* Discards output: assimp prints its failed assertions; our own text says what is wrong. */
@@ -248,7 +267,8 @@ static uint64_t bytes_read_for(const char *path, size_t bytes)
 static mote_status blame_reader(const char *path, const char *reader, mote_status status,
                                 const mote_child_limits *limits)
 {
-    const char *right = is_read_by_us(path) ? "triangles, or fewer of them" : "the mesh in OBJ";
+    const bool read_by_us = is_text_file(path) || is_ply_file(path);
+    const char *right = read_by_us ? "triangles, or fewer of them" : "the mesh in OBJ";
     if (status == MOTE_ENOMEM)
         return mote_fail(status,
                          "%s: needs more memory than the %zu MB that a file of this size gets; "

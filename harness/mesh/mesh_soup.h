@@ -60,6 +60,31 @@ mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *so
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
                                mote_soup *soup);
 
+/* The vertices of a file, numbered as there, without triangles: of a mesh, or of a frame of a
+   sequence. Set xyz and room (0: positions are not wanted) and zero the rest. */
+typedef struct mote_frame_file {
+    double *xyz;       /* [3 * room]: those of the first vertices of the file */
+    size_t room;       /* further vertices are counted but not stored */
+    size_t count;      /* vertices in the file */
+    uint64_t topology; /* hash of its faces: corner counts and vertices */
+} mote_frame_file;
+
+/* Adds a face of a file to its hash: first the number of corners, then each vertex. */
+static inline uint64_t mote_frame_file_hash(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 32;
+}
+
+/* Reads a PLY file (data ends with a 0 byte that size does not count): ASCII, little- or
+   big-endian, any type of number, properties in any order, several elements of faces and
+   triangle strips (tristrips). soup (unless NULL) receives its vertices and triangles, those
+   with a vertex twice included. assimp would round the coordinates to 32 bits, and drop all
+   triangles of a strip but the last and all elements of faces but the last.
+   MOTE_EINVAL with the file and the place. */
+mote_status mote_frame_file_read_ply(const char *path, const char *data, size_t size,
+                                     mote_frame_file *file, mote_soup *soup);
+
 /* MOTE_EINVAL for an empty file. */
 mote_status mote_soup_refuse_empty(const char *path);
 
@@ -67,11 +92,12 @@ mote_status mote_soup_refuse_empty(const char *path);
    carriage returns without line feeds. */
 mote_status mote_soup_check_encoding(const char *path, const char *text, size_t size);
 
-/* Finds errors that assimp silently gets wrong (text ends with a 0 byte). PLY and ASCII STL:
-   carriage returns without line feeds. PLY: a header that has no end, declares no vertex, or
-   more than the file can hold; in ASCII, fewer lines than declared, an index out of range, a
-   comma. ASCII STL: an incomplete vertex or facet, or no end. MOTE_EINVAL with the file, and
-   the line if there is one. Other formats, judged by the path's ending, pass. */
+/* MOTE_EINVAL for a text with the line ends of old Macs, which would be taken for one line. */
+mote_status mote_soup_check_line_ends(const char *path, const char *text);
+
+/* Finds errors that assimp silently gets wrong (text ends with a 0 byte). ASCII STL: carriage
+   returns without line feeds, an incomplete vertex or facet, or no end. MOTE_EINVAL with the
+   file, and the line if there is one. Other formats, judged by the path's ending, pass. */
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size);
 
 /* Reads any format that assimp knows; coordinates go through 32-bit floats. Call it in a child

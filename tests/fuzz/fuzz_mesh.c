@@ -1,5 +1,5 @@
-/* Any text as an OBJ file, up to the rings and measures of its mesh; also as an OFF file and as
-   the text of a PLY or STL file. A split soup makes a mesh unless it has no extent. */
+/* Any text as an OBJ file, up to the rings and measures of its mesh; also as an OFF or PLY file
+   and as the text of an STL file. A split soup makes a mesh unless it has no extent. */
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_soup.h"
 #include "harness/mesh/mesh_split.h"
@@ -33,11 +33,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     memcpy(text, data, size);
     text[size] = '\0';
-    mote_soup obj = {0}, off = {0};
-    (void)mote_soup_check_text("any.ply", text, size);
+    mote_soup obj = {0}, off = {0}, ply = {0};
+    mote_frame_file file = {0};
     (void)mote_soup_check_text("any.stl", text, size);
     if (mote_soup_read_off("any.off", text, size, &off) == MOTE_OK)
         make_mesh(&off);
+    if (mote_frame_file_read_ply("any.ply", text, size, &file, &ply) == MOTE_OK) {
+        make_mesh(&ply);
+        mote_soup_weld(&ply);
+        make_mesh(&ply);
+    }
     if (mote_soup_read_obj("any.obj", text, &obj) == MOTE_OK) {
         make_mesh(&obj);
         mote_soup_weld(&obj);
@@ -45,6 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     mote_soup_free(&obj);
     mote_soup_free(&off);
+    mote_soup_free(&ply);
     free(text);
     return 0;
 }

@@ -91,7 +91,7 @@ TEST(sequence_names_the_frame_and_what_is_wrong_with_it)
         {"ply", "3 0 1 5\n", "3 0 1 25\n", "face 1 has vertex 25 of 25"},
         {"ply", "3 0 1 5\n", "3 1 0 5\n", "frame 3: f3.ply: other faces"},
         {"ply", "face 32", "face 33", "frame 3: f3.ply:73: ends after face 32 of 33"},
-        {"ply", "face 32", "face 31", "frame 3: f3.ply: other faces"},
+        {"ply", "face 32", "face 31", "frame 3: f3.ply:72: goes on after all that is declared"},
         {"ply", "vertex 25", "vertex 99999", "declares 99999 elements"},
         {"ply", "format ascii", "format odd", "an unknown format"},
         {"ply", "end_header", "end_heads", "end_header"},

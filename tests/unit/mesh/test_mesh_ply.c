@@ -1,6 +1,7 @@
 /* PLY texts and binary files of one triangle, each with one thing changed. */
 #include "harness/base/file.h"
-#include "harness/sequence/frame_file.h"
+#include "harness/mesh/mesh_import.h"
+#include "harness/mesh/mesh_soup.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
 
@@ -34,7 +35,12 @@ static mote_status read(const void *data, size_t size, triangle *out)
 {
     *out = (triangle){.file = {.room = 3}};
     out->file.xyz = out->xyz;
-    return mote_frame_file_read_ply("p.ply", data, size, &out->file, &out->soup);
+    const mote_status status =
+        mote_frame_file_read_ply("p.ply", data, size, &out->file, &out->soup);
+    if (status != MOTE_OK)
+        return status;
+    mote_soup_drop_collapsed(&out->soup);
+    return mote_soup_refuse_collapsed("p.ply", &out->soup);
 }
 
 /* Positions, and the soup's triangle. */
@@ -53,10 +59,19 @@ TEST(ply_that_is_written_otherwise_is_the_same_triangle)
 {
     static const row rows[] = {
         {"ply\n", "ply\r\n", NULL},
+        {"ply\n", "\xef\xbb\xbfPLY\n", NULL},
         {"\nend", "\n\ncomment a\nobj_info b c d e f g h\nend", NULL},
         {"\nend", "\n \t \nend", NULL},
         {LIST, "property list int8 uint16 vertex_index\n", NULL},
         {LIST, "property list uint short vertex_indices\n", NULL},
+        {LIST, "property list uchar float vertex_indices\n", NULL},
+        {"face 1", "tristrips 1", NULL},
+        {"face 1\n" LIST, "face 0\n" LIST "element tristrips 1\n" LIST, NULL},
+        {"face 1\n" LIST "end_header\n0 0 0\n1 0 0\n0 1 0\n",
+         "face 1\n" LIST "element face 1\n" LIST
+         "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 0 2\n", /* a triangle without area */
+         NULL},
+        {"3 0 1 2\n", "3 0 1 2\n \t\r\n\n", NULL},
         {LIST "end_header\n0 0 0\n1 0 0\n0 1 0\n3",
          "property uchar mark\nproperty list ushort double odd\n" LIST
          "end_header\n0 0 0\n1 0 0\n0 1 0\n7 2 0.5 -1 3",
@@ -89,6 +104,7 @@ static void refuse(const char *text, const char *says)
     assert_int_equal(read(text, strlen(text), &got), MOTE_EINVAL);
     if (strncmp(mote_error_text(), says, strlen(says)) != 0)
         fail_msg("%s", mote_error_text());
+    assert_non_null(strstr(mote_error_text(), "; ")); /* and what would be right */
     mote_soup_free(&got.soup);
 }
 
@@ -97,6 +113,7 @@ TEST(ply_with_a_wrong_header_is_refused_with_its_line)
     static const row rows[] = {
         {"ply\n", "plx\n", "p.ply:1: does not begin with the word ply"},
         {"ply\n", "ply 1\n", "p.ply:1: does not begin with the word ply"},
+        {WHOLE, "ply\rformat ascii 1.0\r", "p.ply: lines that end with a carriage return"},
         {"ply\n", "\n", "p.ply:1: does not begin with the word ply"},
         {WHOLE, "ply", "p.ply:1: a header without a line end_header; add it"},
         {"format ascii 1.0\n", "", "p.ply:8: a header without a format"},
@@ -120,7 +137,8 @@ TEST(ply_with_a_wrong_header_is_refused_with_its_line)
         {"uchar int", "byte int", "p.ply:8: a property of an unknown type"},
         {"uchar int", "float int", "p.ply:8: a property of an unknown type"},
         {"uchar int", "uchar integer", "p.ply:8: a property of an unknown type"},
-        {"uchar int", "uchar float32", "p.ply:8: corners that are not integers; write"},
+        {LIST, LIST "property list uchar int vertex_index\n",
+         "p.ply:9: a second list of corners in one element; give one"},
         {"float y", "float x", "p.ply:9: no vertex element with x, y and z once each; add it"},
         {"float z\n", "float z\nproperty int z\n", "p.ply:10: no vertex element with x, y"},
         {"float z", "float w", "p.ply:9: no vertex element with x, y and z once each"},
@@ -143,6 +161,8 @@ TEST(ply_with_wrong_entries_is_refused_with_their_number)
 {
     static const row rows[] = {
         {"1 0 0", "1 x 0", "p.ply:11: has something that is not a number after vertex 1 of 3"},
+        {"1 0 0", "1,5 0 0", "p.ply:11: a comma among numbers; write 1.5, not 1,5"},
+        {"3 0 1 2", "3 0,1,2", "p.ply:13: a comma among numbers; write 1.5, not 1,5"},
         {"1 0 0", "1 0; 0", "p.ply:11: has something that is not a number after vertex 1"},
         {"0 1 0\n3 0 1 2\n", "", "p.ply:12: ends after vertex 2 of 3; give all, or declare"},
         {"0 1 0", "inf 1 0", "p.ply:12: vertex 3 has a coordinate that is not a finite"},
@@ -156,14 +176,17 @@ TEST(ply_with_wrong_entries_is_refused_with_their_number)
         {"3 0 1 2", "0", "p.ply:13: face 1 has 0 corners; give at least 3"},
         {"3 0 1 2", "-1 0", "p.ply:13: a list of -1 entries; give at most 1000000"},
         {"3 0 1 2", "3.5 0 1 2", "p.ply:13: a list of 3.5 entries; give at most 1000000"},
-        {"3 0 1 2", "1e7 0 1 2", "p.ply:13: a list of 1e+07 entries; give at most 1000000"},
+        {"3 0 1 2", "1e7 0 1 2", "p.ply:13: a list of 10000000 entries; give at most 1000000"},
         {"3 0 1 2", "nan 0 1 2", "p.ply:13: a list of nan entries; give at most 1000000"},
         {"3 0 1 2", "3 0 1 3", "p.ply:13: face 1 has vertex 3 of 3; use 0 to 2"},
         {"3 0 1 2", "3 -1 1 2", "p.ply:13: face 1 has vertex -1 of 3; use 0 to 2"},
         {"3 0 1 2", "3 0 0.5 2", "p.ply:13: face 1 has vertex 0.5 of 3; use 0 to 2"},
         {"3 0 1 2", "3 0 nan 2", "p.ply:13: face 1 has vertex nan of 3; use 0 to 2"},
+        {"3 0 1 2", "3 0 1 0", "p.ply: each of its 1 faces has two corners at one place; give"},
         {"3 0 1 2", "5 0 1 2 0 1", "p.ply:13: face 1: a face with a vertex twice; give"},
-        {"face 1", "face 0", "p.ply:12: no face in it; give triangles"},
+        {"3 0 1 2\n", "3 0 1 2\n3 0 1 2\n", "p.ply:14: goes on after all that is declared"},
+        {"1 0 0", "1 0 0 0", "p.ply:"}, /* numbers of no property */
+        {"face 1", "face 0", "p.ply:13: goes on after all that is declared; declare what"},
         {LIST, LIST "element odd 1\nproperty int a\n", "p.ply:16: ends after entry 0 of 1"},
         {LIST, LIST "element odd 1\nproperty list int int a\n",
          "p.ply:16: ends after entry 0 of 1"},
@@ -173,6 +196,70 @@ TEST(ply_with_wrong_entries_is_refused_with_their_number)
         refuse(text, rows[i].says);
         free(text);
     }
+}
+
+TEST(ply_with_wrong_strips_is_refused_with_their_number)
+{
+    static const row rows[] = {
+        {"3 0 1 2", "2 0 1", "p.ply:13: strip 1 has a part of 2 corners; give at least 3"},
+        {"3 0 1 2", "5 0 1 2 -1 2", "p.ply:13: strip 1 has a part of 1 corners; give at"},
+        {"3 0 1 2", "3 0 1 3", "p.ply:13: strip 1 has vertex 3 of 3; use 0 to 2"},
+        {"3 0 1 2", "3 0 1 -2", "p.ply:13: strip 1 has vertex -2 of 3; use 0 to 2"},
+        {"3 0 1 2", "9 0 1 2", "p.ply:13: a list of 9 entries; give at most 7"},
+        {"3 0 1 2\n", "", "p.ply:13: ends after strip 0 of 1; give all"},
+        {"3 0 1 2", "0", "p.ply: no face in it; give triangles"},
+        {"3 0 1 2", "4 0 0 1 1", "p.ply: each of its 2 faces has two corners at one"},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        const row strip = {"face 1", "tristrips 1", NULL};
+        char *text = whole_but(&rows[i]), *at = strstr(text, strip.from);
+        char *strips =
+            mote_format("%.*s%s%s", (int)(at - text), text, strip.to, at + strlen(strip.from));
+        refuse(strips, rows[i].says);
+        free(strips);
+        free(text);
+    }
+}
+
+/* Five vertices; faces, two strips in one list with a repeated corner that makes no triangle,
+   and faces again. */
+TEST(ply_faces_and_strips_of_all_elements_are_read_in_order)
+{
+    static const char text[] =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\n" LIST "element tristrips 1\n"
+        "property list int int vertex_indices\nelement face 1\n" LIST "end_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n3 0 1 4\n"
+        "10 0 1 2 3 -1 2 3 3 4 -1\n3 4 3 0\n";
+    static const uint32_t indices[][3] = {{0, 1, 4}, {0, 1, 2}, {2, 1, 3}, {4, 3, 0}};
+    triangle got = {0};
+    if (mote_frame_file_read_ply("p.ply", text, strlen(text), &got.file, &got.soup) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    mote_soup_drop_collapsed(&got.soup);
+    assert_int_equal(got.soup.triangle_count, ROWS_OF(indices));
+    assert_memory_equal(got.soup.indices, indices, sizeof indices);
+    assert_int_equal(got.soup.collapsed, 2);
+    assert_int_equal(got.soup.lines[2], 20);
+    mote_soup_free(&got.soup);
+}
+
+/* As a mesh, vertices at one place become one; coordinates are those of the text. */
+TEST(ply_as_a_mesh_is_exact_and_welded)
+{
+    static const char text[] =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\n" LIST "end_header\n"
+        "0 0 0\n1 0 0\n0 0.1 0\n1 0 0\n1 0.1 0\n3 0 1 2\n3 3 4 2\n";
+    mote_mesh *mesh;
+    mote_import import;
+    file_write("exact.ply", text, strlen(text));
+    if (mote_mesh_import("exact.ply", &mesh, &import) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(import.welded, 1);
+    assert_false(import.single_precision);
+    assert_true(mesh->high.y == 0.1);
+    mote_mesh_destroy(mesh);
 }
 
 TEST(ply_with_too_many_declarations_is_refused)

@@ -1,8 +1,8 @@
-/* Reads PLY, keeping the vertices as in the file. assimp, which reads single PLY files, rounds
-   them to 32 bits and loses their order when it welds them. */
-#include "harness/sequence/frame_file.h"
+/* Reads PLY, keeping the vertices as in the file. */
+#include "harness/mesh/mesh_soup.h"
 
 #include "harness/base/memory.h"
+#include "harness/mesh/mesh_text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -10,10 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define ELEMENTS_MAX 16
 #define PROPERTIES_MAX 64
-#define CORNERS_MAX 1000000 /* per face */
+#define LIST_MAX 1000000     /* entries of a list; those of a strip are limited by the file */
+#define STRIP_END UINT32_MAX /* the corner -1 */
 
 typedef enum number_type { NONE, I8, U8, I16, U16, I32, U32, F32, F64 } number_type;
 
@@ -30,7 +32,7 @@ typedef struct property {
 
 typedef struct element {
     uint64_t count;
-    bool is_vertex, is_face;
+    bool is_vertex, is_face, is_strips;
     property property[PROPERTIES_MAX];
     size_t properties;
 } element;
@@ -45,7 +47,7 @@ typedef struct ply {
     size_t vertices;
     mote_frame_file *file;
     mote_soup *soup;
-    uint32_t *corners; /* of the face being read */
+    uint32_t *corners; /* of the face or strip being read */
     size_t corner_room;
 } ply;
 
@@ -80,7 +82,7 @@ static role role_named(const element *e, const char *name, bool list)
 {
     if (e->is_vertex && !list && name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0')
         return name[0] == 'x' ? X : name[0] == 'y' ? Y : Z;
-    if (e->is_face && list &&
+    if ((e->is_face || e->is_strips) && list &&
         (strcmp(name, "vertex_indices") == 0 || strcmp(name, "vertex_index") == 0))
         return CORNERS;
     return OTHER;
@@ -96,12 +98,16 @@ static mote_status add_element(ply *p, const char *name, const char *count)
         return fail(p, "an element without its count; write element vertex 8, for example");
     /* An element takes at least one byte. */
     if (number > (uint64_t)(p->end - p->at))
-        return fail(p, "declares %llu elements, which the %zu bytes left cannot hold", number,
-                    (size_t)(p->end - p->at));
+        return fail(
+            p,
+            "declares %llu elements, which the %zu bytes left cannot hold; give the number "
+            "that follows",
+            number, (size_t)(p->end - p->at));
     element *e = &p->element[p->elements++];
     e->count = number;
     e->is_vertex = strcmp(name, "vertex") == 0;
     e->is_face = strcmp(name, "face") == 0;
+    e->is_strips = strcmp(name, "tristrips") == 0;
     if (!e->is_vertex)
         return MOTE_OK;
     for (size_t i = 0; i + 1 < p->elements; ++i) {
@@ -121,16 +127,18 @@ static mote_status add_property(ply *p, char *const words[], int count)
     if (e->properties == PROPERTIES_MAX)
         return fail(p, "more than %d properties; leave some out", PROPERTIES_MAX);
     if (!list && count != 3)
-        return fail(p, "a property that is not a type and a name");
+        return fail(
+            p, "a property that is not a type and a name; write property float x, for example");
     property *made = &e->property[e->properties++];
     made->length = list ? type_named(words[2]) : NONE;
     made->type = type_named(words[list ? 3 : 1]);
     made->role = role_named(e, words[list ? 4 : 2], list);
     if (made->type == NONE || (list && (made->length == NONE || made->length >= F32)))
         return fail(p, "a property of an unknown type; give float, int, uchar or the like");
-    if (made->role == CORNERS && made->type >= F32)
-        return fail(p, "corners that are not integers; write property list uchar int "
-                       "vertex_indices");
+    for (size_t k = 0; made->role == CORNERS && k + 1 < e->properties; ++k) {
+        if (e->property[k].role == CORNERS)
+            return fail(p, "a second list of corners in one element; give one");
+    }
     return MOTE_OK;
 }
 
@@ -169,8 +177,8 @@ static mote_status read_header(ply *p)
     char line[256], *words[WORDS_MAX];
     bool has_format = false;
     mote_status status = MOTE_OK;
-    if (header_words(p, line, words) != 1 || strcmp(words[0], "ply") != 0)
-        return fail(p, "does not begin with the word ply");
+    if (header_words(p, line, words) != 1 || strcasecmp(words[0], "ply") != 0)
+        return fail(p, "does not begin with the word ply; write it on a line of its own");
     while (status == MOTE_OK && p->at < p->end) {
         const int count = header_words(p, line, words);
         const char *word = count > 0 ? words[0] : "";
@@ -179,11 +187,15 @@ static mote_status read_header(ply *p)
             has_format = true;
         } else if (strcmp(word, "element") == 0) {
             status = count == 3 ? add_element(p, words[1], words[2])
-                                : fail(p, "an element without a name and a count");
+                                : fail(p, "an element without a name and a count; write "
+                                          "element vertex 8, for example");
         } else if (strcmp(word, "property") == 0) {
             status = add_property(p, words, count);
         } else if (strcmp(word, "end_header") == 0) {
-            return has_format ? MOTE_OK : fail(p, "a header without a format");
+            return has_format
+                       ? MOTE_OK
+                       : fail(p,
+                              "a header without a format; write format ascii 1.0, for example");
         }
     }
     return status == MOTE_OK ? fail(p, "a header without a line end_header; add it") : status;
@@ -222,6 +234,12 @@ static double number_of(uint64_t bits, number_type type)
     }
 }
 
+static void skip_blanks(ply *p)
+{
+    for (; *p->at == ' ' || *p->at == '\t' || *p->at == '\r' || *p->at == '\n'; ++p->at)
+        p->line += *p->at == '\n';
+}
+
 /* Reads the next number, from text or binary. */
 static mote_status next_number(ply *p, number_type type, double *value)
 {
@@ -233,8 +251,7 @@ static mote_status next_number(ply *p, number_type type, double *value)
         p->at += bytes;
         return MOTE_OK;
     }
-    for (; *p->at == ' ' || *p->at == '\t' || *p->at == '\r' || *p->at == '\n'; ++p->at)
-        p->line += *p->at == '\n';
+    skip_blanks(p);
     char *stop;
     *value = strtod(p->at, &stop);
     const bool ends = *stop == ' ' || *stop == '\t' || *stop == '\r' || *stop == '\n' || !*stop;
@@ -244,28 +261,35 @@ static mote_status next_number(ply *p, number_type type, double *value)
     return MOTE_OK;
 }
 
-static mote_status ends_early(const ply *p, const element *e, uint64_t number)
+static const char *kind_of(const element *e)
 {
-    const char *name = e->is_vertex ? "vertex" : e->is_face ? "face" : "entry";
-    const bool ends =
-        !p->ascii || p->at >= p->end; /* any bytes of a binary file are a number */
-    return fail(p, "%s after %s %" PRIu64 " of %" PRIu64 "; give all, or declare fewer",
-                ends ? "ends" : "has something that is not a number", name, number, e->count);
+    return e->is_vertex ? "vertex" : e->is_face ? "face" : e->is_strips ? "strip" : "entry";
 }
 
-static mote_status end_face(ply *p, uint64_t number, size_t corners)
+/* Why there was no next number. Any bytes of a binary file are one. */
+static mote_status no_number(const ply *p, const element *e, uint64_t number)
 {
-    uint64_t hash = p->file->topology;
-    for (size_t k = 0; k < corners; ++k)
-        hash = mote_frame_file_hash(hash, p->corners[k]);
-    p->file->topology = mote_frame_file_hash(hash, corners);
-    if (!p->soup)
+    if (!p->ascii || p->at >= p->end)
+        return fail(p, "ends after %s %" PRIu64 " of %" PRIu64 "; give all, or declare fewer",
+                    kind_of(e), number, e->count);
+    if (memchr(p->at, ',', strcspn(p->at, " \t\r\n")))
+        return fail(p, "a comma among numbers; write 1.5, not 1,5");
+    return fail(p,
+                "has something that is not a number after %s %" PRIu64 " of %" PRIu64
+                "; give a number for each property",
+                kind_of(e), number, e->count);
+}
+
+static mote_status add_face(ply *p, uint64_t number, size_t count)
+{
+    const uint32_t *corners = p->corners;
+    if (count < 3)
+        return fail(p, "face %" PRIu64 " has %zu corners; give at least 3", number + 1, count);
+    if (count == 3) {
+        mote_soup_add_triangle(p->soup, corners[0], corners[1], corners[2]);
         return MOTE_OK;
-    if (corners < 3)
-        return fail(p, "face %" PRIu64 " has %zu corners; give at least 3", number + 1,
-                    corners);
-    p->soup->line = p->ascii && p->line < UINT32_MAX ? (uint32_t)p->line : 0;
-    const mote_status status = mote_soup_add_polygon(p->soup, p->corners, corners);
+    }
+    const mote_status status = mote_soup_add_polygon(p->soup, corners, count);
     if (status != MOTE_EINVAL)
         return status;
     char text[200];
@@ -273,34 +297,85 @@ static mote_status end_face(ply *p, uint64_t number, size_t corners)
     return fail(p, "face %" PRIu64 ": %s", number + 1, text);
 }
 
+/* Each corner from the third on makes a triangle with the two before it, every other one of
+   which is turned round. */
+static mote_status add_strip(ply *p, uint64_t number, const uint32_t *corners, size_t count)
+{
+    if (count == 1 || count == 2)
+        return fail(p, "strip %" PRIu64 " has a part of %zu corners; give at least 3",
+                    number + 1, count);
+    for (size_t k = 2; k < count; ++k)
+        mote_soup_add_triangle(p->soup, corners[k - 2 + k % 2], corners[k - 1 - k % 2],
+                               corners[k]);
+    return MOTE_OK;
+}
+
+/* A corner -1 ends a strip; another one follows. */
+static mote_status add_strips(ply *p, uint64_t number, size_t count)
+{
+    mote_status status = MOTE_OK;
+    size_t first = 0;
+    for (size_t k = 0; k <= count && status == MOTE_OK; ++k) {
+        if (k < count && p->corners[k] != STRIP_END)
+            continue;
+        status = add_strip(p, number, p->corners + first, k - first);
+        first = k + 1;
+    }
+    return status;
+}
+
+static mote_status end_corners(ply *p, const element *e, uint64_t number, size_t count)
+{
+    uint64_t hash = p->file->topology;
+    for (size_t k = 0; k < count; ++k)
+        hash = mote_frame_file_hash(hash, p->corners[k]);
+    p->file->topology = mote_frame_file_hash(hash, count);
+    if (!p->soup)
+        return MOTE_OK;
+    p->soup->line = p->ascii && p->line < UINT32_MAX ? (uint32_t)p->line : 0;
+    return e->is_strips ? add_strips(p, number, count) : add_face(p, number, count);
+}
+
+static mote_status put_corner(ply *p, const element *e, uint64_t number, size_t k, double value)
+{
+    const bool ends = e->is_strips && value == -1;
+    if (!ends && !(value >= 0 && value < (double)p->vertices && value == floor(value)))
+        return fail(p, "%s %" PRIu64 " has vertex %.17g of %zu; use 0 to %zu", kind_of(e),
+                    number + 1, value, p->vertices, p->vertices - 1);
+    p->corners[k] = ends ? STRIP_END : (uint32_t)value;
+    return MOTE_OK;
+}
+
 static mote_status read_list(ply *p, const element *e, const property *q, uint64_t number)
 {
     double length, value;
     if (next_number(p, q->length, &length) != MOTE_OK)
-        return ends_early(p, e, number);
-    if (!(length >= 0 && length <= CORNERS_MAX && length == floor(length)))
-        return fail(p, "a list of %g entries; give at most %d", length, CORNERS_MAX);
+        return no_number(p, e, number);
+    /* An entry takes at least one byte. */
+    const size_t most = e->is_strips ? (size_t)(p->end - p->at) : LIST_MAX;
+    if (!(length >= 0 && length <= (double)most && length == floor(length)))
+        return fail(p, "a list of %.17g entries; give at most %zu", length, most);
     const size_t count = (size_t)length;
     if (q->role == CORNERS)
         p->corners = mote_reserve(p->corners, count + 1, &p->corner_room, sizeof *p->corners);
-    for (size_t k = 0; k < count; ++k) {
+    mote_status status = MOTE_OK;
+    for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         if (next_number(p, q->type, &value) != MOTE_OK)
-            return ends_early(p, e, number);
-        if (q->role != CORNERS)
-            continue;
-        if (!(value >= 0 && value < (double)p->vertices && value == floor(value)))
-            return fail(p, "face %" PRIu64 " has vertex %.17g of %zu; use 0 to %zu", number + 1,
-                        value, p->vertices, p->vertices - 1);
-        p->corners[k] = (uint32_t)value;
+            status = no_number(p, e, number);
+        else if (q->role == CORNERS)
+            status = put_corner(p, e, number, k, value);
     }
-    return q->role == CORNERS ? end_face(p, number, count) : MOTE_OK;
+    return status == MOTE_OK && q->role == CORNERS ? end_corners(p, e, number, count) : status;
 }
 
 static mote_status add_vertex(ply *p, uint64_t number, const double xyz[3])
 {
     mote_frame_file *file = p->file;
     if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
-        return fail(p, "vertex %" PRIu64 " has a coordinate that is not a finite number",
+        return fail(p,
+                    "vertex %" PRIu64
+                    " has a coordinate that is not a finite number; give finite "
+                    "ones",
                     number + 1);
     if (file->count < file->room)
         memcpy(file->xyz + 3 * file->count, xyz, 3 * sizeof *xyz);
@@ -318,7 +393,7 @@ static mote_status read_entry(ply *p, const element *e, uint64_t number)
         if (q->length != NONE)
             status = read_list(p, e, q, number);
         else if (next_number(p, q->type, &value) != MOTE_OK)
-            status = ends_early(p, e, number);
+            status = no_number(p, e, number);
         if (status != MOTE_OK)
             return status;
         if (q->role == X || q->role == Y || q->role == Z)
@@ -352,6 +427,15 @@ static mote_status check_header(const ply *p)
     return corners ? MOTE_OK : fail(p, "no face element with vertex_indices; add it");
 }
 
+/* More numbers than were declared would be those of a wrong declaration. */
+static mote_status check_end(ply *p)
+{
+    skip_blanks(p);
+    return p->at == p->end ? MOTE_OK
+                           : fail(p, "goes on after all that is declared; declare what "
+                                     "follows, or leave it out");
+}
+
 static mote_status read_all(ply *p)
 {
     mote_status status = read_header(p);
@@ -362,21 +446,26 @@ static mote_status read_all(ply *p)
         for (uint64_t n = 0; n < p->element[i].count && status == MOTE_OK; ++n)
             status = read_entry(p, &p->element[i], n);
     }
+    if (status == MOTE_OK && p->ascii)
+        status = check_end(p);
     if (status == MOTE_OK && p->soup && p->soup->triangle_count == 0)
-        status = fail(p, "no face in it; give triangles");
+        status = mote_fail(MOTE_EINVAL, "%s: no face in it; give triangles", p->path);
     return status;
 }
 
 mote_status mote_frame_file_read_ply(const char *path, const char *data, size_t size,
                                      mote_frame_file *file, mote_soup *soup)
 {
+    mote_status status = mote_soup_check_line_ends(path, data);
+    if (status != MOTE_OK)
+        return status;
     ply *p = mote_allocate(1, sizeof *p);
     p->path = path;
-    p->at = data;
+    p->at = mote_skip_mark(data);
     p->end = data + size;
     p->file = file;
     p->soup = soup;
-    const mote_status status = read_all(p);
+    status = read_all(p);
     free(p->corners);
     free(p);
     return status;
