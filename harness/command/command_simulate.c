@@ -119,12 +119,13 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
     status = run(wish, subject, &options, simulator, &result);
     const uint32_t bodies = mote_simulator_bodies(simulator).count;
     FILE *out = result_stream(wish);
+    const char *scenario = mote_subject_facts_of(subject).name;
     const char *method = wish->choices.items[0].text;
     if (status == MOTE_OK && wish->json)
-        status = mote_simulation_put(
-            mote_simulation_json(wish->scenarios[0], bodies, method, &result), out);
+        status =
+            mote_simulation_put(mote_simulation_json(scenario, bodies, method, &result), out);
     else if (status == MOTE_OK)
-        mote_simulation_print(wish->scenarios[0], bodies, method, &result, out);
+        mote_simulation_print(scenario, bodies, method, &result, out);
     mote_simulator_destroy(simulator);
     return status;
 }
@@ -165,7 +166,6 @@ static mote_status make_plans(const request *wish, uint64_t program, mote_subjec
         if (status != MOTE_OK)
             break;
         plans[i] = (mote_replicates){.subject = &subjects[i],
-                                     .scenario = wish->scenarios[i],
                                      .choices = &wish->choices,
                                      .options = mote_default_simulation_options(&subjects[i]),
                                      .steps = (uint32_t)wish->steps,
@@ -213,13 +213,15 @@ static int simulate_replicates(const request *wish)
     return code;
 }
 
-static bool read_vector(const char *text, mote_vec3 *v)
+#define GRAVITY_MAX 1e154 /* its square is a double */
+
+static bool read_gravity(const char *text, mote_vec3 *v)
 {
     double value[3];
     if (!mote_read_triple(text, value))
         return false;
     *v = (mote_vec3){value[0], value[1], value[2]};
-    return isfinite(mote_length(*v));
+    return mote_length(*v) <= GRAVITY_MAX;
 }
 
 const mote_option mote_options_simulate[] = {
@@ -315,7 +317,9 @@ static const char *read_value(request *wish, int option, const char *value)
                    ? NULL
                    : "give L, above 0 and at most 0.05";
     case OPTION_GRAVITY:
-        return read_vector(value, &wish->gravity) ? NULL : "give x,y,z, in L per frame squared";
+        return read_gravity(value, &wish->gravity)
+                   ? NULL
+                   : "give x,y,z, in L per frame squared, at most 1e154 long";
     case OPTION_TIME_STEP:
         return read_positive(value, MOTE_SIMULATION_STEP_MAX, &wish->time_step) ? NULL : frames;
     case OPTION_STEP:

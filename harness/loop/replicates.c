@@ -25,6 +25,11 @@ typedef struct work {
     bool *skipped; /* [tasks]: stored by an earlier run, or not wanted */
 } work;
 
+static const char *scenario_of(const mote_replicates *plan)
+{
+    return mote_subject_facts_of(plan->subject).name;
+}
+
 static const mote_method_choice *choice_of(const mote_replicates *plan, size_t task)
 {
     return &plan->choices->items[task % plan->choices->count];
@@ -60,7 +65,7 @@ static json_t *identity(const mote_replicates *plan, size_t task)
 static json_t *describe(const mote_replicates *plan, size_t task)
 {
     json_t *object = identity(plan, task);
-    (void)json_object_set_new(object, "scenario", json_string(plan->scenario));
+    (void)json_object_set_new(object, "scenario", json_string(scenario_of(plan)));
     (void)json_object_set_new(object, "method", json_string(choice_of(plan, task)->text));
     return object;
 }
@@ -72,8 +77,7 @@ static char *file_name(const mote_replicates *plan, size_t task)
     char *text = json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17));
     const uint64_t hash = mote_hash_text(text);
     char *name =
-        mote_format("simulations/%.20s-%.28s-r%u-%016" PRIx64 ".json",
-                    mote_subject_facts_of(plan->subject).name,
+        mote_format("simulations/%.20s-%.28s-r%u-%016" PRIx64 ".json", scenario_of(plan),
                     choice_of(plan, task)->method->name, replicate_of(plan, task), hash);
     for (char *c = strchr(name, '/') + 1; *c; ++c) {
         if (!isalnum((unsigned char)*c) && *c != '-' && *c != '.')
@@ -117,8 +121,8 @@ static mote_status keep(const mote_replicates *plan, size_t task,
         (void)json_object_set_new(object, "reason", json_string(reason));
     json_t *figures = NULL;
     if (result)
-        figures =
-            mote_simulation_json(plan->scenario, bodies, choice_of(plan, task)->text, result);
+        figures = mote_simulation_json(scenario_of(plan), bodies, choice_of(plan, task)->text,
+                                       result);
     if (figures)
         (void)json_object_update(object, figures);
     json_decref(figures);
@@ -180,7 +184,7 @@ static mote_status finish_task(void *context, size_t task, mote_child *child, do
         return mote_fail(child->status, "%s", child->text);
     else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EUNSUPPORTED)
         how = "unsupported";
-    (void)fprintf(stderr, "%s %s r%u: %s%s%s, %.1f s\n", w->plan->scenario,
+    (void)fprintf(stderr, "%s %s r%u: %s%s%s, %.1f s\n", scenario_of(w->plan),
                   choice_of(w->plan, which)->text, replicate_of(w->plan, which), how,
                   done ? "" : ": ", done ? "" : child->text, seconds);
     return keep(w->plan, which, done ? &result : NULL, how, done ? NULL : child->text);

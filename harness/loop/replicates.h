@@ -9,7 +9,6 @@
 
 typedef struct mote_replicates {
     const mote_subject *subject; /* with its hashes */
-    const char *scenario;        /* its displayed name */
     const mote_choices *choices;
     mote_simulation_options options;
     uint32_t steps;      /* 0: all frames of the scenario */

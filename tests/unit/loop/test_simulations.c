@@ -63,10 +63,10 @@ static void require_same_rows(const char *a, const char *b)
 TEST(mote_simulate_shards_merge_to_the_whole)
 {
     mote_expect(0, "plan: 4 simulations, 0 of them done", BOTH " --replicates 2 --out whole");
-    mote_expect(0, "two.json", BOTH " --replicates 2 --out first --shard 1/3");
-    assert_null(strstr(said, "many.json"));
-    mote_expect(0, "many.json", BOTH " --replicates 2 --out second --shard 2/3");
-    assert_null(strstr(said, "two.json"));
+    mote_expect(0, "two certified r1: ok", BOTH " --replicates 2 --out first --shard 1/3");
+    assert_null(strstr(said, "many certified"));
+    mote_expect(0, "many certified r1: ok", BOTH " --replicates 2 --out second --shard 2/3");
+    assert_null(strstr(said, "two certified"));
     mote_expect(0, "", BOTH " --replicates 2 --out third --shard 3/3");
     assert_int_equal(folder_count("third/simulations", ".json"), 0);
     mote_expect(0, "0 cells and 8 simulations copied, 0 were there",
@@ -75,7 +75,7 @@ TEST(mote_simulate_shards_merge_to_the_whole)
     require_same_rows("whole", "merged");
     mote_expect(0, "plan: 4 simulations, 4 of them done", BOTH " --replicates 2 --out merged");
     require_same_rows("whole", "merged");
-    mote_expect(0, "many.json/certified/simulated", "compare merged merged");
+    mote_expect(0, "many/certified/simulated", "compare merged merged");
     assert_non_null(strstr(said, "same or better"));
 }
 
@@ -96,7 +96,7 @@ TEST(mote_simulate_a_slurm_task_is_a_shard)
     assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "2", 1), 0);
     assert_int_equal(setenv("SLURM_ARRAY_TASK_COUNT", "2", 1), 0);
     mote_expect(0, "shard 2/2", BOTH " --out task");
-    assert_null(strstr(said, "two.json"));
+    assert_null(strstr(said, "two certified"));
     assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "0", 1), 0);
     mote_expect(2, "--array=1-N", BOTH " --out task");
     mote_expect(0, "2 bodies", "simulate two.json --method certified");
@@ -154,7 +154,7 @@ TEST(mote_compare_of_simulations_sees_what_is_worse)
         test_row("%s", row[i].key);
         plant(row[i].key, 7);
         mote_expect(1, row[i].says, "compare whole worse");
-        assert_non_null(strstr(said, "two.json/certified/simulated"));
+        assert_non_null(strstr(said, "two/certified/simulated"));
         mote_expect(0, "better", "compare worse whole");
     }
     mote_expect(0, "", "simulate two.json --method certified --out alone --seed 3");
@@ -163,25 +163,46 @@ TEST(mote_compare_of_simulations_sees_what_is_worse)
     mote_expect(4, "no configuration in common", "compare alone other");
 }
 
+/* Rows are of the scenario's name, as those of a run: however its file was named, they are
+   found. */
+TEST(simulations_are_kept_under_the_name_of_the_scenario)
+{
+    mote_expect(0, "two certified r1: ok",
+                "simulate two.json --method certified --steps 5 --out plain");
+    mote_expect(0, "two certified r1: ok",
+                "simulate ./plain/../two.json --method certified --steps 5 --out odd");
+    assert_int_not_equal(mote("compare plain odd"), 4); /* the verdict depends on times */
+    assert_non_null(strstr(said, "two/certified/simulated"));
+    assert_null(strstr(said, "without a partner"));
+    mote_expect(0, "plan: 1 simulations, 1 of them done",
+                "simulate ./two.json --method certified --steps 5 --out plain");
+    json_t *rows = rows_of("plain");
+    assert_int_equal(json_array_size(rows), 1);
+    assert_string_equal(mote_text_at(json_array_get(rows, 0), "scenario"), "two");
+    json_decref(rows);
+    mote_expect(0, "\"scenario\": \"two\"",
+                "simulate ./two.json --method certified --steps 5 --json");
+}
+
 TEST(mote_summarize_and_report_show_simulations)
 {
     mote_expect(0, "", BOTH " --replicates 2 --out whole");
-    mote_expect(0, "many.json, aabb-tree: 12 bodies", "summarize whole");
+    mote_expect(0, "many, aabb-tree: 12 bodies", "summarize whole");
     assert_non_null(strstr(said, "replicates 2, failed 0"));
     mote_expect(0, "\"replicates_failed\": 0", "summarize whole --format json");
     mote_expect(2, "of simulations there are table and json", "summarize whole --format csv");
     mote_expect(0, "whole/report.html", "report whole");
     char *page = file_text("whole/report.html"), *text = file_text("whole/report.md");
     assert_non_null(strstr(page, "\"passes_through\""));
-    assert_non_null(strstr(text, "| many.json | aabb-tree | 2 |"));
+    assert_non_null(strstr(text, "| many | aabb-tree | 2 |"));
     free(page);
     free(text);
     /* Cells and simulations in one directory. */
     mote_expect(0, "", "run two.json --method certified --replicates 2 --out whole");
-    mote_expect(0, "many.json, aabb-tree: 12 bodies", "summarize whole");
+    mote_expect(0, "many, aabb-tree: 12 bodies", "summarize whole");
     assert_non_null(strstr(said, "certified"));
     mote_expect(0, "two/certified/hot", "compare whole whole");
-    assert_non_null(strstr(said, "two.json/certified/simulated"));
+    assert_non_null(strstr(said, "two/certified/simulated"));
     mote_expect(0, "2 cells and 8 simulations copied", "merge again whole");
 }
 
