@@ -50,7 +50,8 @@ static bool read_option(request *wish, int option, const char *value)
         wish->size.scene = value;
         return true;
     case 5:
-        if (mote_read_unsigned(value, 1, 1000, &number)) {
+        if (mote_read_unsigned(value, 1, 1000, &number) &&
+            mote_dynamics_has_step((double)number)) {
             wish->size.step = (double)number;
             return true;
         }
@@ -59,18 +60,20 @@ static bool read_option(request *wish, int option, const char *value)
         wish->keep = true;
         return true;
     }
-    (void)mote_command_usage("dynamics", "--%s %s: give a whole number from 1 to %s",
-                             mote_options_dynamics[option].name, value,
-                             option == 2   ? "64"
-                             : option == 5 ? "1000"
-                                           : "1000000");
+    (void)mote_command_usage("dynamics", "--%s %s: give %s", mote_options_dynamics[option].name,
+                             value,
+                             option == 2   ? "a whole number from 1 to 64"
+                             : option == 5 ? "1, 3, 10 or 30"
+                                           : "a whole number from 1 to 1000000");
     return false;
 }
 
 static mote_status study(const request *wish, int argc, char **argv, bool *met)
 {
     uint64_t program = 0;
-    mote_status status = mote_directory_make(wish->directory);
+    mote_status status = mote_dynamics_check(&wish->size); /* before anything is written */
+    if (status == MOTE_OK)
+        status = mote_directory_make(wish->directory);
     if (status == MOTE_OK)
         status = mote_program_hash(&program);
     if (status == MOTE_OK)

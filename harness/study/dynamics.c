@@ -105,6 +105,15 @@ static void add_scene(plan *p, const char *scene, bool paper)
     }
 }
 
+bool mote_dynamics_has_step(double frames)
+{
+    for (size_t k = 0; k < STEPS; ++k) {
+        if (!(fabs(steps[k] - frames) > 0))
+            return true;
+    }
+    return false;
+}
+
 mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row **rows,
                                size_t *count)
 {
@@ -113,12 +122,6 @@ mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row
         add_scene(&p, paper_scenes[i], true);
     for (size_t i = 0; i < OTHER_SCENES && !size->quick; ++i)
         add_scene(&p, other_scenes[i], false);
-    if (p.count == 0 && size->step > 0) {
-        free(p.rows);
-        return mote_fail(
-            MOTE_EINVAL, "no row of the study has %g frames a step%s%s; choose 1, 3, 10 or 30",
-            size->step, size->scene ? ", in scene " : "", size->scene ? size->scene : "");
-    }
     if (p.count == 0) {
         free(p.rows);
         return mote_fail(MOTE_EINVAL, "scene '%s' is not in the study; choose %s", size->scene,
@@ -129,6 +132,15 @@ mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row
     *rows = p.rows;
     *count = p.count;
     return MOTE_OK;
+}
+
+mote_status mote_dynamics_check(const mote_dynamics_size *size)
+{
+    mote_dynamics_row *rows = NULL;
+    size_t count;
+    const mote_status status = mote_dynamics_plan(size, &rows, &count);
+    free(rows);
+    return status;
 }
 
 void mote_dynamics_claim(mote_claim *claim)

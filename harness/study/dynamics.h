@@ -32,13 +32,20 @@ typedef struct mote_dynamics_size {
                             1,000, 200 for FCL, and further laws and scenes */
     uint32_t approaches; /* this many for every row, unless 0 */
     const char *scene;   /* only this scene, unless NULL */
-    double step; /* only rows of sampled and continuous steps of this many frames, unless 0 */
+    double step; /* only rows of sampled and continuous steps of this many frames, which
+                    mote_dynamics_has_step, unless 0 */
 } mote_dynamics_size;
+
+/* Whether the study has rows of so many frames a step: 1, 3, 10 or 30. */
+bool mote_dynamics_has_step(double frames);
 
 /* Makes every row of the study, scene by scene; the caller frees *rows. MOTE_EINVAL for a scene
    that is not in the study. */
 mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row **rows,
                                size_t *count);
+
+/* The same errors, making nothing. */
+mote_status mote_dynamics_check(const mote_dynamics_size *size);
 
 /* Fills in what the paper claims, and adds a row's value to it: rows with 3 to 5 particles and
    the printed law on the paper's scenes decide; others are only reported. */

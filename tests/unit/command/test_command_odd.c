@@ -99,7 +99,12 @@ static const command_line bad_lines[] = {
      "0.000000000000000000000000000000000001",
      2, "expected a share above 0, at most 100%, such as 1%"},
     {"race /bin/true /bin/true s.json --method certified --until 0.5 --real 2", 2, "--real 2"},
-    {"dynamics --step 0 --out k", 2, "--step 0: give a whole number from 1 to 1000"},
+    {"dynamics --step 0 --out k", 2, "--step 0: give 1, 3, 10 or 30"},
+    {"dynamics --step 2 --out k", 2, "--step 2: give 1, 3, 10 or 30"},
+    {"dynamics --scene nope --out k", 4, "scene 'nope' is not in the study; choose tt, mv"},
+    {"dynamics --scene vv --quick --out k", 4, "'vv' is not in the study; choose tt, mv or ww"},
+    {"simulate s.json --method certified --gravity 1e200,0,0", 2,
+     "--gravity 1e200,0,0: give x,y,z, in L per frame squared, at most 1e154 long"},
     {"dynamics --jobs 65 --out k", 2, "--jobs 65: give a whole number from 1 to 64"},
     {"dynamics --approaches x --out k", 2, "give a whole number from 1 to 1000000"},
     {"approach twice.json --gaps 1:0.1,4:-0.1 -o no/x.json", 4, "no/: No such file"},
@@ -163,6 +168,7 @@ TEST(command_sequence_that_cannot_name_its_cache_leaves_no_part)
 {
     mote_expect(4, "taken/cloth.pc2: cannot be named so: Is a directory",
                 "sequence cloth --triangles 800 --frames 2 --out taken");
+    assert_int_equal(folder_count("taken", ".part"), 0);
     assert_int_equal(folder_count("taken", ".partial"), 0);
     assert_false(file_exists("taken/cloth.json"));
 }
