@@ -6,6 +6,7 @@
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/command/command.h"
+#include "harness/process/stop.h"
 #include "harness/scene/spread.h"
 #include "harness/sequence/point_cache.h"
 
@@ -15,7 +16,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define FRAMES 200
 #define FRAMES_MAX 100000
@@ -43,6 +43,11 @@ static mote_status write_frames(const request *wish, const mote_mesh *mesh, void
     mote_point_cache_put_header(count, (uint32_t)wish->frames, header);
     mote_status status = put(file, header, sizeof header, path);
     for (uint64_t k = 0; k < wish->frames && status == MOTE_OK; ++k) {
+        if (mote_child_stop_asked()) {
+            status = mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
+                               path);
+            break;
+        }
         if (k > 0)
             wish->kind->step(state, positions);
         mote_point_cache_put(&positions[0].x, count, bytes);
@@ -57,7 +62,7 @@ static mote_status write_frames(const request *wish, const mote_mesh *mesh, void
 static mote_status write_cache(const request *wish, const mote_mesh *mesh, void *state,
                                const char *path)
 {
-    char *partial = mote_format("%s.%ld.partial", path, (long)getpid());
+    char *partial = mote_part_name(path);
     FILE *file = fopen(partial, "wb");
     mote_status status =
         file ? write_frames(wish, mesh, state, file, partial)
@@ -106,6 +111,7 @@ static mote_status make(const request *wish)
     mote_status status = wish->kind->create(wish->triangles, &mesh, &state);
     if (status == MOTE_OK)
         status = mote_directory_make(wish->directory);
+    mote_child_heed_signals(); /* no part of a file must outlive this process */
     if (status == MOTE_OK)
         status = mote_obj_write(obj, NULL, mesh);
     if (status == MOTE_OK)

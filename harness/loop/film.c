@@ -3,6 +3,7 @@
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
+#include "harness/process/stop.h"
 #include "harness/process/gnuplot.h"
 
 #include <stdio.h>
@@ -64,6 +65,7 @@ mote_status mote_film_create(const mote_simulator *simulator, const char *method
     made->every = steps / MOTE_FILM_PICTURES + 1;
     made->box[0] = made->box[2] = HUGE_VAL;
     made->box[1] = made->box[3] = -HUGE_VAL;
+    mote_child_heed_signals(); /* the folder must not outlive this process */
     mote_status status = make_bodies(made);
     if (status == MOTE_OK)
         status = mote_directory_make(made->folder);
@@ -228,6 +230,9 @@ static void add_closest(const mote_film *film, const mote_simulation_view *view,
 mote_status mote_film_watch(void *film, const mote_simulation_view *view)
 {
     mote_film *f = film;
+    if (mote_child_stop_asked())
+        return mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
+                         f->path);
     const bool begins = view->contact && !f->contact;
     f->contact = view->contact;
     if ((view->step % f->every != 0 && !begins) || f->pictures == 2 * MOTE_FILM_PICTURES)

@@ -26,33 +26,6 @@ typedef struct final_words {
     char text[1024];
 } final_words;
 
-static volatile sig_atomic_t stop_signal; /* 0: none received */
-
-static void ask_to_stop(int signal_number)
-{
-    stop_signal = signal_number;
-}
-
-void mote_child_heed_signals(void)
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = ask_to_stop;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
-    (void)signal(SIGXFSZ, SIG_IGN); /* write then fails, without a signal */
-}
-
-bool mote_child_stop_asked(void)
-{
-    return stop_signal != 0;
-}
-
-int mote_child_stop_signal(void)
-{
-    return stop_signal;
-}
-
 mote_status mote_child_put(int output, const void *data, size_t size)
 {
     const char *from = data;
@@ -259,7 +232,7 @@ mote_status mote_child_look(mote_child *children, size_t count, size_t *index, b
         watch[i] = input;
     }
     int ready = poll(watch, count, patience_ms(children, count));
-    if (stop_signal != 0) {
+    if (mote_child_stop_asked()) {
         mote_child_stop(children, count);
         return mote_fail(MOTE_EIO, "stopped by a signal; run the same command again to go on");
     }

@@ -5,6 +5,7 @@
 #define MOTE_HARNESS_CHILD_H
 
 #include "core/base/status.h"
+#include "harness/process/stop.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -57,14 +58,6 @@ mote_status mote_child_wait(mote_child *children, size_t count, size_t *index);
 
 /* The same, but waits at most a fifth of a second; *ended: whether one has ended. */
 mote_status mote_child_look(mote_child *children, size_t count, size_t *index, bool *ended);
-
-/* From now on SIGINT and SIGTERM only ask to stop: functions that wait for children then end
-   them. A write beyond the file size limit fails with an error instead of a signal. */
-void mote_child_heed_signals(void);
-bool mote_child_stop_asked(void);
-
-/* The signal that asked to stop, or 0. */
-int mote_child_stop_signal(void);
 
 /* Ends the children that are running. */
 void mote_child_stop(mote_child *children, size_t count);

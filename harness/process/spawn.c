@@ -1,14 +1,17 @@
 #include "harness/process/spawn.h"
 
 #include "harness/base/file.h"
+#include "harness/process/stop.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 _Noreturn void mote_spawn_become(const char *const argv[])
@@ -68,6 +71,25 @@ static void keep_output(int in, char *output, size_t size)
     output[used] = '\0';
 }
 
+#define PAUSE_MS_MAX 50
+
+/* Waits until a program has ended. A signal that asks us to stop meanwhile ends it: looking for
+   one again and again misses none, as a wait could that the signal comes just before. */
+static int wait_or_stop(pid_t pid, bool was_asked)
+{
+    int status = 0;
+    long pause_ms = 1;
+    pid_t ended;
+    while ((ended = waitpid(pid, &status, WNOHANG)) == 0) {
+        const struct timespec pause = {0, pause_ms * 1000000};
+        if (!was_asked && mote_child_stop_asked())
+            (void)kill(pid, SIGTERM);
+        (void)nanosleep(&pause, NULL);
+        pause_ms = pause_ms < PAUSE_MS_MAX ? pause_ms + 1 : PAUSE_MS_MAX;
+    }
+    return ended == pid ? status : -1;
+}
+
 static mote_status spawn(const char *const argv[], const char *directory, char *output,
                          size_t size, bool errors_too)
 {
@@ -75,6 +97,7 @@ static mote_status spawn(const char *const argv[], const char *directory, char *
     if (output && pipe(ends) != 0)
         return mote_fail(MOTE_EIO, "%s: no pipe: %s", argv[0], strerror(errno));
     (void)fflush(NULL);
+    const bool was_asked = mote_child_stop_asked();
     pid_t pid = fork();
     if (pid == 0)
         run(argv, directory, ends[1], errors_too);
@@ -87,7 +110,7 @@ static mote_status spawn(const char *const argv[], const char *directory, char *
     }
     if (pid < 0)
         return mote_fail(MOTE_EIO, "%s: no process: %s", argv[0], strerror(error));
-    const int status = mote_spawn_wait(pid);
+    const int status = wait_or_stop(pid, was_asked);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return MOTE_OK;
     if (WIFEXITED(status) && WEXITSTATUS(status) == MOTE_SPAWN_NOT_RUN)

@@ -14,8 +14,9 @@
    one) and waits. It runs in an English UTF-8 locale, whatever the user's is: we parse what git
    and valgrind print, and gnuplot warns if it cannot write a figure's text. Its standard output
    is stored in output (cut to size bytes, ended by a 0 byte, trailing line ends removed) and
-   its standard error dropped; if output is NULL, both go where ours go. MOTE_EIO if it cannot
-   be run or its exit status is not 0. */
+   its standard error dropped; if output is NULL, both go where ours go. A signal that asks us
+   to stop meanwhile (mote_child_heed_signals) ends it. MOTE_EIO if it cannot be run or its exit
+   status is not 0. */
 mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
                        size_t size);
 

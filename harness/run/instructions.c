@@ -3,6 +3,7 @@
 #include "harness/run/measure.h"
 #include "harness/run/own_words.h"
 #include "harness/base/record.h"
+#include "harness/process/stop.h"
 #include "harness/process/manifest.h"
 #include "harness/process/spawn.h"
 
@@ -130,7 +131,7 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
     mote_status status =
         length > 0 ? MOTE_OK
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
-    if (status == MOTE_OK) {
+    if (status == MOTE_OK && !mote_child_stop_asked()) {
         program[length] = '\0';
         enum { BEFORE = 6, WORDS = 7 };
         const char *const words[WORDS] = {"instructions", scenario, "--frames", frames,
@@ -141,6 +142,9 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
         argv[mote_own_words_add(words, WORDS, argv, BEFORE)] = NULL;
         status = mote_spawn(argv, NULL, NULL, 0);
     }
+    if (mote_child_stop_asked())
+        status = mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
+                           directory);
     if (status == MOTE_OK)
         status = read_totals(out, count);
     (void)unlink(out);
@@ -230,6 +234,7 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
         status = mote_program_hash(&hash);
     if (status == MOTE_OK)
         status = mote_directory_make(directory);
+    mote_child_heed_signals(); /* callgrind's file must not outlive this process */
     (void)snprintf(program, sizeof program, "%016" PRIx64, hash);
     json_t *rows = status == MOTE_OK ? read_rows(directory, program) : NULL;
     for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i)

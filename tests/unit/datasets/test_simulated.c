@@ -196,6 +196,7 @@ TEST(sequence_command_writes_a_scenario_that_runs)
         mote_expect(0, "12 frames", "sequence %s --triangles 1000 --frames 12 --out d", name);
         mote_expect(0, "checked by brute force", "check d/%s.json", name);
     }
+    assert_int_equal(folder_count("d", ".part"), 0);
     assert_int_equal(folder_count("d", ".partial"), 0);
     mote_expect(2, "give a whole number from 800 to", "sequence cloth --triangles 799 --out e");
     mote_expect(2, "not one of cloth, banner, jelly", "sequence flag --triangles 799 --out e");

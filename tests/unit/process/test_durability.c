@@ -178,6 +178,42 @@ TEST(run_after_sigint_keeps_its_cells_and_goes_on)
     stopped_by(SIGINT);
 }
 
+/* Stops a command once a file of its directory exists: it must say so, and leave no file with
+   this ending. */
+static void stop_without(pid_t pid, const char *file, int signal_number, const char *ending)
+{
+    wait_for_file(file);
+    assert_int_equal(kill(pid, signal_number), 0);
+    assert_int_equal(program_wait(pid), 128 + signal_number);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "stopped by a signal; run the same command again"));
+    assert_int_equal(folder_count(directory, ending), 0);
+}
+
+/* This and the next would take hours. */
+TEST(sequence_after_a_signal_leaves_no_part_of_its_positions)
+{
+    static const int signals[] = {SIGTERM, SIGINT};
+    for (size_t i = 0; i < ROWS_OF(signals); ++i) {
+        char part[64];
+        const pid_t pid = start("sequence cloth --triangles 800 --frames 100000");
+        (void)snprintf(part, sizeof part, "cloth.pc2.%ld.part", (long)pid);
+        stop_without(pid, part, signals[i], ".part");
+        assert_int_equal(folder_count(directory, ".pc2"), 0);
+    }
+}
+
+TEST(film_after_a_signal_leaves_no_pictures)
+{
+    static const int signals[] = {SIGTERM, SIGINT};
+    for (size_t i = 0; i < ROWS_OF(signals); ++i) {
+        (void)snprintf(line, sizeof line,
+                       "simulate tt --method brute-force --steps 1000000 --film %s/g.gif",
+                       directory);
+        stop_without(program_start(line, said), "g.gif.frames/000.dat", signals[i], ".frames");
+    }
+}
+
 static pid_t wait_for_child(pid_t pid)
 {
     pid_t child = 0;

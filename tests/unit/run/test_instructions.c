@@ -3,9 +3,12 @@
 #include "tests/support/diamond.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
+#include "tests/support/program.h"
 #include "tests/support/test.h"
 
+#include <signal.h>
 #include <sys/stat.h>
+#include <time.h>
 
 /* Fails where the words hold what the file "fails" says. */
 #define VALGRIND                                                                               \
@@ -94,6 +97,35 @@ TEST(instructions_that_were_counted_before_a_failure_are_kept)
     mote_expect(0, "20 instructions a frame", COUNT "aabb-tree", "s.json");
     (void)count_of("s", "certified", &found);
     assert_int_equal(found, 1);
+}
+
+/* A valgrind that writes its file and then never ends. */
+#define ENDLESS                                                                                \
+    "#!/bin/sh\n[ \"$1\" != --version ] || exit 0\nfor a; do case $a in "                      \
+    "--callgrind-out-file=*) echo x > \"${a#*=}\" ;; esac; done\n: > started\nexec sleep "     \
+    "100000\n"
+
+TEST(instructions_after_a_signal_leave_no_file_of_callgrind)
+{
+    static const int signals[] = {SIGTERM, SIGINT};
+    file_put("valgrind", ENDLESS);
+    for (size_t i = 0; i < ROWS_OF(signals); ++i) {
+        const pid_t pid = program_start(
+            "instructions s.json --frames 1-2 --out . --method certified", "said");
+        for (int tries = 0; !file_exists("started"); ++tries) {
+            const struct timespec pause = {0, 10000000};
+            assert_true(tries < 6000);
+            (void)nanosleep(&pause, NULL);
+        }
+        assert_int_equal(folder_count(".", ".out"), 1);
+        assert_int_equal(kill(pid, signals[i]), 0);
+        assert_int_equal(program_wait(pid), 128 + signals[i]);
+        assert_int_equal(folder_count(".", ".out"), 0);
+        char *text = file_text("said");
+        assert_non_null(strstr(text, "stopped by a signal; run the same command again"));
+        free(text);
+        assert_int_equal(folder_remove("started"), 0);
+    }
 }
 
 /* Counts of two builds are never in one file. */
