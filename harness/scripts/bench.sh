@@ -65,11 +65,12 @@ claims() {
 }
 
 # measure_best SCENARIO ARGUMENT...: also measures the best configurations of the engines of others and
-# of FCL alone that `make tune` found on this scenario, if it ran. One that this build lacks is left out.
+# of FCL alone that `make tune` found on this scenario, if it ran and measured it. One that this build lacks
+# is left out.
 measure_best() {
     [ -f results/tune/tune.json ] || return 0
     for which in best best-fcl; do
-        best=$("$mote" tune results/tune --$which "$1")
+        best=$("$mote" tune results/tune --$which "$1") || continue # which has said why
         [ -n "$best" ] || continue
         echo "bench.sh: $which on $1 is $best, says results/tune/tune.json" >&2
         measure_engine "${best%%:*}" "${best#"${best%%:*}"}" "$@"

@@ -4,8 +4,10 @@
 #include "harness/base/record.h"
 #include "harness/summary/column.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
 {
@@ -95,40 +97,66 @@ static bool is_asked(const char *method, bool fcl)
     return fcl ? strncmp(method, "fcl-", 4) == 0 : mote_summary_engine_name(method);
 }
 
+/* What tune.json says about a scenario. */
+typedef struct told_best {
+    const char *configuration; /* the fastest correct one, or "" */
+    double total;
+    bool known; /* whether the scenario is in the file */
+} told_best;
+
+static void consider(json_t *row, const char *scenario, bool fcl, told_best *best)
+{
+    const char *name = NULL, *cache = NULL, *method = NULL, *text = NULL;
+    const char *accounting = "charged"; /* older files do not say */
+    int right = 0;
+    double total = 0;
+    best->known = best->known || strcmp(mote_text_at(row, "scenario"), scenario) == 0;
+    if (json_unpack(row, "{s:s, s:s, s:s, s:s, s:b, s:F, s?s}", "scenario", &name, "cache",
+                    &cache, "method", &method, "configuration", &text, "right", &right,
+                    "total_ns", &total, "accounting", &accounting) != 0 ||
+        strcmp(name, scenario) != 0 || strcmp(accounting, "charged") != 0 ||
+        strcmp(cache, "hot") != 0 || !is_asked(method, fcl) || !right ||
+        !(total > 0 && total < best->total))
+        return;
+    best->total = total;
+    best->configuration = text;
+}
+
+static mote_status read_tuned(const char *directory, json_t **object)
+{
+    char *path = mote_format("%s/tune.json", directory);
+    const bool absent = access(path, F_OK) != 0 && errno == ENOENT;
+    free(path);
+    if (absent)
+        return mote_fail(MOTE_EIO, "%s/tune.json: there is none; `mote tune %s` writes it",
+                         directory, directory);
+    const mote_status status = mote_record_read_json(directory, "tune.json", object);
+    if (status != MOTE_OK || json_is_array(json_object_get(*object, "rows")))
+        return status;
+    json_decref(*object);
+    return mote_fail(MOTE_EINVAL, "%s/tune.json: no rows; `mote tune %s` writes it", directory,
+                     directory);
+}
+
 mote_status mote_tune_best(const char *directory, const char *scenario, bool fcl,
                            char **configuration)
 {
     json_t *object = NULL;
-    mote_status status = mote_record_read_json(directory, "tune.json", &object);
+    mote_status status = read_tuned(directory, &object);
     if (status != MOTE_OK)
         return status;
     const json_t *rows = json_object_get(object, "rows");
-    if (!json_is_array(rows)) {
-        json_decref(object);
-        return mote_fail(MOTE_EINVAL, "%s/tune.json: no rows; `make tune` writes it",
-                         directory);
-    }
-    const char *best = "";
-    double least = HUGE_VAL;
-    for (size_t i = 0; i < json_array_size(rows); ++i) {
-        const char *name = NULL, *cache = NULL, *method = NULL, *text = NULL;
-        const char *accounting = "charged"; /* older files do not say */
-        int right = 0;
-        double total = 0;
-        if (json_unpack(json_array_get(rows, i), "{s:s, s:s, s:s, s:s, s:b, s:F, s?s}",
-                        "scenario", &name, "cache", &cache, "method", &method, "configuration",
-                        &text, "right", &right, "total_ns", &total, "accounting",
-                        &accounting) == 0 &&
-            strcmp(name, scenario) == 0 && strcmp(accounting, "charged") == 0 &&
-            strcmp(cache, "hot") == 0 && is_asked(method, fcl) && right && total > 0 &&
-            total < least) {
-            least = total;
-            best = text;
-        }
-    }
-    *configuration = mote_duplicate(best);
+    told_best best = {.configuration = "", .total = HUGE_VAL};
+    for (size_t i = 0; i < json_array_size(rows); ++i)
+        consider(json_array_get(rows, i), scenario, fcl, &best);
+    if (best.known)
+        *configuration = mote_duplicate(best.configuration);
+    else
+        status = mote_fail(MOTE_EINVAL,
+                           "%s/tune.json: scenario '%s' is not in it; name one of its rows",
+                           directory, scenario);
     json_decref(object);
-    return MOTE_OK;
+    return status;
 }
 
 /* Prints the best of a scene's groups that are of engines of others, or of FCL's. */

@@ -27,8 +27,8 @@ json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
 /* The configuration that directory/tune.json lists as the fastest correct one of the engines of
    others on a scenario with hot caches, as written after --method; "" if it lists none. fcl:
-   of FCL's alone. MOTE_EIO or MOTE_EINVAL if the file cannot be read or has no rows. The caller
-   frees *configuration. */
+   of FCL's alone. MOTE_EIO or MOTE_EINVAL if the file cannot be read or has no rows;
+   MOTE_EINVAL if the scenario is in none of them. The caller frees *configuration. */
 mote_status mote_tune_best(const char *directory, const char *scenario, bool fcl,
                            char **configuration);
 

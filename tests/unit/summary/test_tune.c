@@ -89,10 +89,10 @@ TEST(tune_names_the_fastest_right_configuration)
     mote_expect(0, best, "tune --best-fcl tt .");
     assert_int_equal(strcspn(said, "\n"), strlen(best));
     assert_memory_equal(said, best, strlen(best));
-    mote_expect(0, "", "tune --best-fcl ww . 2>err.txt");
+    mote_expect(4, "", "tune --best-fcl ww . 2>err.txt");
     assert_string_equal(said, "");
-    mote_expect(0, "./tune.json lists no FCL that is right on ww", "tune --best-fcl ww .");
-    mote_expect(0, "lists no engine of others that is right on ww", "tune --best ww .");
+    mote_expect(4, "./tune.json: scenario 'ww' is not in it", "tune --best-fcl ww .");
+    mote_expect(4, "./tune.json: scenario 'ww' is not in it", "tune --best ww .");
     /* Of the engines of others there are only FCL's and libccd's, and libccd's parts are no
        engine for meshes. */
     mote_expect(0, best, "tune --best tt .");
@@ -151,7 +151,8 @@ TEST(tune_of_a_cell_without_frames_leaves_it_out)
 TEST(tune_without_a_run_is_bad_input)
 {
     mote_expect(4, "", "tune nothing");
-    mote_expect(4, "", "tune --best-fcl tt nothing");
+    mote_expect(4, "nothing/tune.json: there is none; `mote tune nothing` writes it",
+                "tune --best-fcl tt nothing");
     mote_expect(2, "", "tune");
     mote_expect(2, "", "tune . two");
 }
@@ -173,4 +174,11 @@ TEST(tune_best_is_of_all_engines_of_others)
     file_put("engines/tune.json", file);
     mote_expect(0, "ode:vertices=single\n", "tune --best s engines");
     mote_expect(0, "fcl-aabb\n", "tune --best-fcl s engines");
+    mote_expect(4, "engines/tune.json: scenario 't' is not in it", "tune --best t engines");
+    /* Measured, but nothing of FCL's is right. */
+    file_put("engines/tune.json",
+             "{\"rows\": [{\"scenario\": \"s\", \"cache\": \"hot\", \"method\": \"fcl-aabb\", "
+             "\"right\": false, \"configuration\": \"fcl-aabb\", \"total_ns\": 4}]}\n");
+    mote_expect(0, "engines/tune.json lists no FCL that is right on s",
+                "tune --best-fcl s engines");
 }
