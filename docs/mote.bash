@@ -41,8 +41,7 @@ _mote()
         ;;
     esac
     if [ -z "$words" ]; then
-        words="$(printf '%s\n' "$table" | awk -F '\t' '$1 == "option" { print $2 }') --help"
-        [ "$command" = race ] || words="$words --plugin"
+        words="$(printf '%s\n' "$table" | awk -F '\t' '$1 == "option" { print $2 }') --help --plugin"
         case $table in
         *SCENARIO*)
             words="$words $("$program" list scenarios 2>/dev/null | cut -d ' ' -f 1)"

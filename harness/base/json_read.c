@@ -271,8 +271,10 @@ mote_status mote_json_boolean(const mote_json *node, bool *value)
 mote_status mote_json_string(const mote_json *node, const char **value)
 {
     const char *text = json_string_value(node->value);
-    if (!text || !text[0])
+    if (!text)
         return mote_json_refuse(node, "a string");
+    if (!text[0])
+        return mote_json_refuse(node, "one that is not empty");
     *value = text;
     return MOTE_OK;
 }

@@ -120,7 +120,7 @@ TEST(json_of_another_kind_is_refused_by_line_and_place)
         {"list", as_vector, ":5: list[2]: is a string; give a number from 0"},
         {"number", as_vector, ":1: number: is 2.5; give an array of 3"},
         {"whole", as_string, ":2: whole: is 7; give a string"},
-        {"empty", as_string, ":3: empty: is an empty string; give a string"},
+        {"empty", as_string, ":3: empty: is an empty string; give one that is not empty"},
         {"absent", as_string, ":1: absent: is missing; give a string"}};
     mote_json_file file;
     assert_int_equal(mote_json_open(path, &file), MOTE_OK);

@@ -298,7 +298,7 @@ static const bad_case bad_cases[] = {
     {"\"ask\": \"distance\"", "\"ask\": 3", ":6: ask: ", "is 3; give a string"},
     {"\"frames\": 40", "\"frames\": 40, \"start\": 0.5", ":3: start: ", "out of range"},
     {"\"frames\": 40", "\"frames\": 40, \"pace\": 0", ":3: pace: ", "out of range"},
-    {"\"purpose\": \"a test\"", "\"purpose\": \"\"", ":2: purpose: ", "give a string"},
+    {"\"purpose\": \"a test\"", "\"purpose\": \"\"", ":2: purpose: ", "is an empty string; give one that is not empty"},
     {"\"frames\": 40", "\"frames\": 40,\n \"fps\": 3", ":4: fps: ", "unknown key"},
     {"\"frames\": 40", "\"frames\": 0", ":3: frames: ", "out of range"},
     {"\"frames\": 40", "\"frames\": 1e9", ":3: frames: ", "out of range"},
