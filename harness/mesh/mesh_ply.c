@@ -252,8 +252,8 @@ static mote_status next_number(ply *p, number_type type, double *value)
         return MOTE_OK;
     }
     skip_blanks(p);
-    char *stop;
-    *value = strtod(p->at, &stop);
+    const char *stop;
+    *value = mote_mesh_number(p->at, &stop);
     const bool ends = *stop == ' ' || *stop == '\t' || *stop == '\r' || *stop == '\n' || !*stop;
     if (stop == p->at || !ends)
         return MOTE_EINVAL;

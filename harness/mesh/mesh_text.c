@@ -6,6 +6,52 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Powers of ten that a double holds exactly. */
+static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+#define TENS_MAX 22
+#define EXACT_MAX ((uint64_t)1 << 53)
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/* If the digits make an integer below 2^53 and the power of ten is exact, one multiplication or
+   division rounds as strtod does. */
+double mote_mesh_number(const char *at, const char **end)
+{
+    const char *p = at + (*at == '-' || *at == '+');
+    uint64_t digits = 0;
+    int count = 0, power = 0;
+    for (; is_digit(*p) && count < 18; ++p, ++count)
+        digits = 10 * digits + (uint64_t)(*p - '0');
+    if (*p == '.') {
+        for (++p; is_digit(*p) && count < 18; ++p, ++count, --power)
+            digits = 10 * digits + (uint64_t)(*p - '0');
+    }
+    if (count > 0 && (*p == 'e' || *p == 'E') &&
+        (is_digit(p[1]) || ((p[1] == '-' || p[1] == '+') && is_digit(p[2])))) {
+        const bool negative = p[1] == '-';
+        int exponent = 0;
+        for (p += is_digit(p[1]) ? 1 : 2; is_digit(*p) && exponent < 1000; ++p)
+            exponent = 10 * exponent + (*p - '0');
+        power += negative ? -exponent : exponent;
+    }
+    const bool ends = *p == ' ' || *p == '\n' || *p == '\r' || *p == '\t' || *p == '\0';
+    if (count == 0 || !ends || digits > EXACT_MAX || power < -TENS_MAX || power > TENS_MAX) {
+        char *stop;
+        const double value = strtod(at, &stop);
+        *end = stop;
+        return value;
+    }
+    const double whole = (double)digits;
+    const double value = power < 0 ? whole / tens[-power] : whole * tens[power];
+    *end = p;
+    return *at == '-' ? -value : value;
+}
+
 const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at)
 {
     for (;;) {

@@ -40,6 +40,9 @@ static inline size_t mote_continuation(const mote_mesh_reader *reader, const cha
     return at[1] == '\n' ? 2 : at[1] == '\r' && at[2] == '\n' ? 3 : 0;
 }
 
+/* Reads a number as strtod does, bit for bit, most of them in a fifth of its time. */
+double mote_mesh_number(const char *at, const char **end);
+
 /* Goes to the next word of a line; counts the lines joined to it. */
 const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at);
 
