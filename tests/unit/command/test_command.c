@@ -130,7 +130,7 @@ static const command_line bad_lines[] = {
     {"merge x", 2, "runs are missing"},
     {"tune --x", 2, "unknown option --x; known are: --best SCENARIO, --best-fcl SCENARIO"},
     {"tune x y", 2, "y: one directory at a time"},
-    {"tune --best-fcl=s x", 4, "x/tune.json: No such file"},
+    {"tune --best-fcl=s x", 4, "x/tune.json: there is none; `mote tune x` writes it"},
     {"compare --x", 2, "unknown option --x"},
     {"compare x", 2, "two runs are needed"},
     {"compare x y z", 2, "z: two runs at a time"},

@@ -171,8 +171,7 @@ TEST(command_simulate_tells_what_replicates_did_not_give)
 {
     mote_expect(0, "fcl-kdop18: unsupported: FCL has no distance",
                 "simulate s.json --method fcl-kdop18 --method certified --out k");
-    assert_int_equal(system("grep -l '\"scenario\": \"s.json\"' k/simulations/*fcl-kdop18*"),
-                     0);
+    assert_int_equal(system("grep -l '\"scenario\": \"s\"' k/simulations/*fcl-kdop18*"), 0);
     assert_int_equal(system("for f in k/simulations/*certified*; do echo x >$f; done"), 0);
     mote_expect(0, "plan: 2 simulations, 1 of them done",
                 "simulate s.json --method fcl-kdop18 --method certified --out k");
