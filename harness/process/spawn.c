@@ -80,7 +80,7 @@ static int wait_or_stop(pid_t pid, bool was_asked)
     int status = 0;
     long pause_ms = 1;
     pid_t ended;
-    while ((ended = waitpid(pid, &status, WNOHANG)) == 0) {
+    while ((ended = waitpid(pid, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
         const struct timespec pause = {0, pause_ms * 1000000};
         if (!was_asked && mote_child_stop_asked())
             (void)kill(pid, SIGTERM);

@@ -91,7 +91,7 @@ TEST(tune_best_fcl_reads_only_rows_that_mote_wrote)
     file_put("tune.json", rows);
     mote_expect(0, "", "tune --best-fcl s .");
     assert_string_equal(said, "f\n");
-    mote_expect(0, "lists no FCL that is right on u", "tune --best-fcl u .");
+    mote_expect(4, "tune.json: scenario 'u' is not in it", "tune --best-fcl u .");
     file_put("tune.json", "{\"rows\": [");
     mote_expect(4, "tune.json:1:", "tune --best-fcl s .");
 }
