@@ -21,7 +21,8 @@ typedef struct mote_impact_search mote_impact_search;
 
 typedef struct mote_impact_options {
     double length;       /* > 0: L of the pair */
-    double resolution;   /* 1e-12 .. 1: width of the bracket, as a part of the time 0 .. 1 */
+    double resolution;   /* 1e-12 .. 1: width of the bracket, in the time 0 .. 1, where rounding
+                            allows it */
     uint32_t pieces;     /* 1 .. 2^20: the most pieces that a path will have */
     uint32_t iterations; /* >= 1: certified queries after which the search gives up */
     uint32_t patience;   /* steps by speeds alone before the first sweep by directions, which
@@ -58,10 +59,14 @@ typedef struct mote_impact_question {
 
 typedef enum mote_impact_outcome {
     MOTE_IMPACT_NONE,  /* proven: the distance is above the tolerance in all of [begin, end] */
-    MOTE_IMPACT_FOUND, /* at `to` the distance is at most the tolerance, and `to` is at most the
-                          resolution after `from` */
-    MOTE_IMPACT_GRAZING,  /* at `to` the distance is above the tolerance, but by no more than
-                             rounding errors */
+    MOTE_IMPACT_FOUND, /* at `to` the distance is at most the tolerance. `to` is at most the
+                          resolution after `from`, but for the rounding of times, or, where
+                          rounding hides the end of the approach, as soon after it as a look
+                          finds the bodies to touch */
+    MOTE_IMPACT_GRAZING,  /* at `from` the distance is above the tolerance, but by no more than
+                             rounding errors, and no look between `from` and `to` finds a touch.
+                             `to` is end, or a moment at which the bodies are proven to be apart
+                             again: ask again from there about what comes after it */
     MOTE_IMPACT_UNDECIDED /* the iterations are spent; `to` is `from`, where the proof ended */
 } mote_impact_outcome;
 
@@ -70,16 +75,21 @@ typedef struct mote_impact_found {
     double from; /* proven: the distance is above the tolerance at all times from begin up to,
                     but not at, this one; `end` where there is no impact */
     double to;   /* >= from */
-    double
-        distance; /* at `to`, exact; where there is no impact, at the last time asked about */
+    double distance;      /* exact, at `to`; of a grazing at `from`, where there is no impact at
+                             the last time asked about */
     mote_vec3 witness[2]; /* on the surfaces at that time */
-    mote_vec3 normal;     /* of length 1, from body 0 to body 1, at the last time asked about at
-                             which they were apart; 0 where they never were */
+    mote_vec3 normal;     /* of length 1, from body 0 to body 1, at that time; where they touch
+                             then, at the last time asked about at which they were apart; 0
+                             where they never were */
     uint32_t iterations;  /* certified queries made */
     mote_counters counters;
 } mote_impact_found;
 
 /* Answers the question. Touching at begin is an impact with the bracket [begin, begin].
+   Rounding hides a distance to the tolerance of some 2^-40 of the sizes of the bodies, their
+   rest coordinates and their places: so much is left of a gap where the proof ends. From there
+   the search looks ahead: as far as speeds allow, or by an eighth of the time since `from` or
+   since the piece began. A touch that is over between two such looks is not seen.
    MOTE_EINVAL, naming the body and the piece: an interval that is not within 0 .. 1 or that is
    reversed, a tolerance below 0 or not finite, paths without pieces, with more than the options
    say, or of different numbers; a number that is not finite; a piece that begins elsewhere than

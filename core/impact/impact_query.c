@@ -5,7 +5,10 @@
    points comes nearer than the tolerance before it has covered the rest of the way at the
    bounded speed. Twice the noise is left out, so that the distance as it is rounded stays above
    the tolerance too. Times are rounded by at most 2^-52, in which a point covers 2^-52 times
-   the number of pieces times its speed in one: 2^-48 of that is left out. */
+   the number of pieces times its speed in one: 2^-48 of that is left out.
+
+   Where no more than that is left, nothing is proven further on, though the bodies are likely
+   to touch soon. From there the search only looks: see look_beyond. */
 #include "core/impact/impact_state.h"
 
 #include <string.h>
@@ -41,13 +44,12 @@ static double gap_at(mote_impact_search *s, mote_place place)
            0x1p-48 * q->path[0]->count * rate->speed;
 }
 
-/* The time until which the last answer, of `time`, proves the bodies to be apart; at most end.
- */
-static double proven_until(mote_impact_search *s, double time)
+/* The time before which no point covers the gap from `time` on, at most end; -1 where there is
+   no gap. */
+static double covered_at(mote_impact_search *s, double time, double gap)
 {
     const uint32_t count = s->question->path[0]->count;
     mote_place at = mote_path_place(s->question->path[0], time);
-    double gap = gap_at(s, at);
     if (!(gap > 0))
         return -1;
     for (;;) {
@@ -63,6 +65,13 @@ static double proven_until(mote_impact_search *s, double time)
         if (at.piece == count || (double)at.piece / count >= s->question->end)
             return s->question->end;
     }
+}
+
+/* The time until which the last answer, of `time`, proves the bodies to be apart; at most end.
+ */
+static double proven_until(mote_impact_search *s, double time)
+{
+    return covered_at(s, time, gap_at(s, mote_path_place(s->question->path[0], time)));
 }
 
 /* The same backwards; at least begin. */
@@ -131,6 +140,51 @@ static double sweep_at_times(mote_impact_search *s, double time, double reached)
     return fmax(reached, until);
 }
 
+/* Looks are as far apart as an eighth of the time since the proof or the piece ended, unless
+   speeds allow more: so a bracket is wider by no more than that than it has to be. */
+#define LOOK_PART 0.125
+
+/* Times differ by at least this. */
+#define LOOK_LEAST 0x1p-50
+
+/* The time of the next look after one at `time`, where the proof ended at `from`. */
+static double next_look(mote_impact_search *s, double from, double time)
+{
+    const mote_impact_question *q = s->question;
+    const uint32_t count = q->path[0]->count;
+    const uint32_t piece = mote_path_place(q->path[0], time).piece;
+    const double begin = fmax(from, (double)piece / count);
+    const double wider = fmin(time + LOOK_PART * (time - begin), (piece + 1.0) / count);
+    const double by_speed = covered_at(s, time, s->at.lower - q->tolerance);
+    return fmin(fmax(fmax(wider, by_speed), time + LOOK_LEAST), q->end);
+}
+
+/* Rounding hides what is left of the gap at `from`, the time of the last answer. Looks at later
+   moments until the bodies touch, which ends the bracket, or are proven to be apart again: then
+   they only grazed. */
+static void look_beyond(mote_impact_search *s, double from)
+{
+    const mote_vec3 normal = s->found.normal;
+    end_with(s, MOTE_IMPACT_GRAZING, from, from);
+    double time = from;
+    bool apart = false;
+    while (!apart && time < s->question->end) {
+        if (s->found.iterations >= s->options.iterations) {
+            s->found.outcome = MOTE_IMPACT_UNDECIDED;
+            time = from;
+            break;
+        }
+        time = next_look(s, from, time);
+        if (touch_at(s, time)) {
+            end_with(s, MOTE_IMPACT_FOUND, from, time);
+            return;
+        }
+        apart = gap_at(s, mote_path_place(s->question->path[0], time)) > 0;
+    }
+    s->found.to = time;
+    s->found.normal = normal;
+}
+
 static void search_for_impact(mote_impact_search *s)
 {
     const mote_impact_question *q = s->question;
@@ -145,7 +199,7 @@ static void search_for_impact(mote_impact_search *s)
             return;
         }
         if (!(reached > time)) {
-            end_with(s, MOTE_IMPACT_GRAZING, time, time);
+            look_beyond(s, time);
             return;
         }
         if (s->found.iterations >= s->options.iterations) {

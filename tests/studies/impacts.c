@@ -140,7 +140,7 @@ static void judge(impact_scene *s, samples *sampled, double tolerance,
     /* a contact before the time until which there is none by proof */
     n->early += found->outcome != MOTE_IMPACT_NONE && first < found->from;
     if (found->outcome == MOTE_IMPACT_GRAZING)
-        n->wrong += impact_distance(s, found->to) > tolerance + 1e-9 * s->length;
+        n->wrong += impact_distance(s, found->from) > tolerance + 1e-9 * s->length;
     if (found->outcome != MOTE_IMPACT_FOUND)
         return;
     ++n->found;
