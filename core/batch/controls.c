@@ -1,5 +1,6 @@
 #include "core/batch/controls.h"
 
+#include "core/body/modes.h"
 #include "core/skin/skin.h"
 
 #include <string.h>
@@ -10,17 +11,12 @@
 /* A rotation made from single precision passes. */
 #define ROTATION_ERROR 1e-6
 
-static bool is_modes(const mote_field *field)
-{
-    return strcmp(field->kind->name, "modes") == 0;
-}
-
 size_t mote_controls_weights(const mote_field *field)
 {
     const mote_skin *skin = mote_field_skin(field);
     if (skin)
         return (size_t)12 * skin->bones;
-    return is_modes(field) ? field->count / 3 : (size_t)3 * field->count;
+    return mote_modes_largest(field) ? field->count / 3 : (size_t)3 * field->count;
 }
 
 size_t mote_controls_amounts(const mote_field *field)
@@ -114,11 +110,54 @@ static mote_status check_numbers(const char *name, const double *numbers, size_t
     return fail_changed(name);
 }
 
+/* Numbers that move vertices along any axis by at most their product with largest[i]: by no
+   more than 2^50 L. 0 times infinity is no number, so that all are finite, too. */
+static mote_status check_moves(const char *name, const double *numbers, const double *largest,
+                               size_t count, double length)
+{
+    const double most = FARTHEST * length;
+    bool fine = true;
+    for (size_t i = 0; i < count; ++i)
+        fine = fine & (fabs(numbers[i]) * largest[i] <= most);
+    if (fine)
+        return MOTE_OK;
+    for (size_t i = 0; i < count; ++i) {
+        if (!(fabs(numbers[i]) * largest[i] <= most))
+            return mote_fail(MOTE_EINVAL,
+                             "%s: number %zu is %g, times displacements of size %g; it must be "
+                             "finite, and the product at most 2^50 L, %g",
+                             name, i, numbers[i], largest[i], most);
+    }
+    return fail_changed(name);
+}
+
+static mote_status check_weights(const mote_field *field, const double *weights, double length)
+{
+    const size_t count = mote_controls_weights(field);
+    const double *largest = mote_modes_largest(field);
+    if (largest)
+        return check_moves("weights", weights, largest, count, length);
+    const bool skin = mote_field_skin(field) != NULL;
+    return check_numbers("weights", weights, count,
+                         FARTHEST * (skin ? fmax(1, length) : length),
+                         skin ? "2^50, or 2^50 L" : "2^50 L");
+}
+
+static mote_status check_amounts(const mote_field *field, const double *amounts, double length)
+{
+    const size_t count = mote_controls_amounts(field);
+    const mote_status status = check_numbers("amounts", amounts, count, FARTHEST, "2^50");
+    return status == MOTE_OK && count > 0
+               ? check_moves("amounts", amounts, mote_field_skin(field)->morph.size, count,
+                             length)
+               : status;
+}
+
 /* Weight vectors in world axes from those of the body's axes. */
 static void turn_vectors(const mote_body *body, const double *weights,
                          const mote_mat3 *rotation, double *x, double *y, double *z)
 {
-    const bool modes = is_modes(body->field);
+    const bool modes = mote_modes_largest(body->field) != NULL;
     for (uint32_t j = 0; j < body->field->count; ++j) {
         double w[3] = {0, 0, 0};
         if (modes)
@@ -151,7 +190,6 @@ mote_status mote_controls_read(const mote_body *body, const mote_controls *contr
     const mote_field *field = body->field;
     const bool skin = mote_field_skin(field) != NULL;
     const size_t padded = field->padded;
-    const size_t weight_count = mote_controls_weights(field);
     const double *weights =
         controls->weights ? controls->weights + frame * controls->weights_step : NULL;
     const double *amounts =
@@ -159,12 +197,9 @@ mote_status mote_controls_read(const mote_body *body, const mote_controls *contr
     mote_pose pose;
     mote_status status = read_pose(controls, frame, length, &pose);
     if (status == MOTE_OK && weights)
-        status = check_numbers("weights", weights, weight_count,
-                               skin ? FARTHEST * fmax(1, length) : FARTHEST * length,
-                               skin ? "2^50, or 2^50 L" : "2^50 L");
+        status = check_weights(field, weights, length);
     if (status == MOTE_OK && amounts)
-        status =
-            check_numbers("amounts", amounts, mote_controls_amounts(field), FARTHEST, "2^50");
+        status = check_amounts(field, amounts, length);
     if (status != MOTE_OK)
         return status;
     double *x = room, *y = room + padded, *z = y + padded;

@@ -35,10 +35,11 @@ size_t mote_controls_amounts(const mote_field *field);
    * field->padded] is for the state's weights, which are borrowed from it; padding is written
    too. MOTE_EINVAL, saying which of pose, weights and amounts is wrong: a number that is not
    finite, a matrix that is no rotation (rows orthonormal to 1e-6, determinant positive), a last
-   row other than 0 0 0 1, a number of rows other than 3 and 4, a translation or weight beyond
-   2^50 L, where double precision has lost the shape, a number of a bone's matrix beyond 2^50
-   and 2^50 L, an amount beyond 2^50, or one that leaves the range of doubles times what it
-   moves. No allocation. Cost O(weights). */
+   row other than 0 0 0 1, a number of rows other than 3 and 4; where double precision has lost
+   the shape, which is a translation or weight beyond 2^50 L, a weight of a linear mode or an
+   amount that times the mode's or target's largest displacement is beyond 2^50 L, a number of a
+   bone's matrix beyond 2^50 and 2^50 L, and an amount beyond 2^50; or numbers that leave the
+   range of doubles times what they move. No allocation. Cost O(weights). */
 mote_status mote_controls_read(const mote_body *body, const mote_controls *controls,
                                size_t frame, double length, double *room,
                                mote_body_state *state);

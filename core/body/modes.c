@@ -1,4 +1,6 @@
 /* Linear modes: a displacement vector per vertex and mode. */
+#include "core/body/modes.h"
+
 #include "core/body/field_kinds.h"
 
 #include <math.h>
@@ -6,8 +8,8 @@
 #include <string.h>
 
 typedef struct modes_data {
-    uint32_t vertex_count;
-    double phi[]; /* [vertex_count][padded] */
+    double *largest; /* [count / 3]: see modes.h; behind phi */
+    double phi[];    /* [vertex_count][padded] */
 } modes_data;
 
 static const double *row_of(const mote_field *field, uint32_t vertex)
@@ -111,6 +113,11 @@ static const mote_field_kind modes_kind = {.name = "modes",
                                            .gradient = modes_gradient,
                                            .destroy = modes_destroy};
 
+const double *mote_modes_largest(const mote_field *field)
+{
+    return field->kind == &modes_kind ? ((const modes_data *)field->data)->largest : NULL;
+}
+
 static mote_status check_input(const mote_vec3 *modes, uint32_t count, uint32_t vertex_count)
 {
     if (count < 1 || count > MOTE_FIELD_MAX / 3)
@@ -133,15 +140,15 @@ mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
         status = mote_field_allocate(&modes_kind, 3 * count, &made);
     if (status != MOTE_OK)
         return status;
-    const size_t bytes =
-        sizeof(modes_data) + (size_t)vertex_count * made->padded * sizeof(double);
+    const size_t values = (size_t)vertex_count * made->padded;
+    const size_t bytes = sizeof(modes_data) + (values + count) * sizeof(double);
     modes_data *data = calloc(1, bytes);
     if (!data) {
         free(made);
         return mote_fail(MOTE_ENOMEM, "no memory for %u modes of %u vertices", count,
                          vertex_count);
     }
-    data->vertex_count = vertex_count;
+    data->largest = data->phi + values;
     for (uint32_t m = 0; m < count; ++m) {
         for (uint32_t i = 0; i < vertex_count; ++i) {
             const mote_vec3 u = modes[(size_t)m * vertex_count + i];
@@ -149,6 +156,7 @@ mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
             row[0] = u.x;
             row[1] = u.y;
             row[2] = u.z;
+            data->largest[m] = fmax(data->largest[m], mote_largest_coordinate(u));
         }
     }
     made->data = data;

@@ -467,7 +467,22 @@ TEST(bodies_of_one_shape_share_their_tree)
     two_free();
 }
 
-/* Each number is in range, but not the sum of what they move. */
+/* Reads one frame's controls of a field; returns whether they are accepted. */
+static bool accepts(const mote_mesh *mesh, const mote_field *field, const double *weights,
+                    const double *amounts)
+{
+    const mote_body body = {.mesh = mesh, .field = field};
+    double room[3 * 8];
+    assert_true(field->padded <= 8);
+    const mote_controls controls = {.weights = weights, .amounts = amounts};
+    mote_body_state state;
+    const mote_status status =
+        mote_controls_read(&body, &controls, 0, mesh->diagonal, room, &state);
+    assert_true(status == MOTE_OK || status == MOTE_EINVAL);
+    return status == MOTE_OK;
+}
+
+/* Amounts are pure numbers: what counts is by how much they move. */
 TEST(amounts_of_enormous_targets_are_refused)
 {
     static const uint32_t start[2] = {0, 1}, vertex[1] = {3};
@@ -477,18 +492,84 @@ TEST(amounts_of_enormous_targets_are_refused)
     mote_field *field = NULL;
     assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
                      MOTE_OK);
-    const mote_body body = {.mesh = mesh, .field = field};
-    double room[3 * 8], amount = 1e7;
-    assert_true(field->padded <= 8);
-    const mote_controls controls = {.amounts = &amount};
-    mote_body_state state;
-    assert_int_equal(mote_controls_read(&body, &controls, 0, mesh->diagonal, room, &state),
-                     MOTE_OK);
-    amount = 1e9;
-    assert_int_equal(mote_controls_read(&body, &controls, 0, mesh->diagonal, room, &state),
-                     MOTE_EINVAL);
+    double amount = 1e-286;
+    assert_true(accepts(mesh, field, NULL, &amount));
+    amount = 1e-284;
+    assert_false(accepts(mesh, field, NULL, &amount));
     assert_non_null(
-        strstr(mote_error_text(), "amounts: times what they move, they leave the range"));
+        strstr(mote_error_text(), "amounts: number 0 is 1e-284, times displacements of size"));
+    assert_non_null(strstr(mote_error_text(), "the product at most 2^50 L"));
     mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
+/* So are weights of linear modes. A tetrahedron whose edges are `scale`, with a mode that moves
+   a vertex by `scale` times `mode`. */
+TEST(weights_of_modes_are_measured_by_what_they_move)
+{
+    static const struct {
+        double scale, mode, weight;
+        bool fine;
+    } rows[] = {{1, 1, 0.1, true},        {1, 1, 1e15, true},       {1, 1, 1e16, false},
+                {1e-30, 1, 0.1, true},    {1e-30, 1, 1e15, true},   {1e-30, 1, 1e16, false},
+                {1e20, 1, 0.1, true},     {1e20, 1, 1e30, false},   {1e100, 1, 1e15, true},
+                {1e100, 1, 1e60, false},  {1, 1e300, 1e14, false},  {1, 1e300, 1, false},
+                {1, 1e300, 1e-286, true}, {1, 1e-290, 1e300, true}, {1, 1e-300, 1e308, true},
+                {1, 0, 1e300, true},      {1, 0, HUGE_VAL, false},  {1, 1, (double)NAN, false}};
+    static const double unit[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint32_t faces[12] = {0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3};
+    for (size_t k = 0; k < ROWS_OF(rows); ++k) {
+        test_row("scale %g, mode %g, weight %g", rows[k].scale, rows[k].mode, rows[k].weight);
+        double x[12];
+        for (int i = 0; i < 12; ++i)
+            x[i] = unit[i] * rows[k].scale;
+        const mote_vec3 modes[4] = {{0, 0, 0}, {0, -rows[k].scale * rows[k].mode, 0}};
+        mote_mesh *mesh = NULL;
+        mote_field *field = NULL;
+        assert_int_equal(mote_mesh_create(x, 4, faces, 4, &mesh), MOTE_OK);
+        assert_int_equal(mote_field_create_modes(modes, 1, 4, &field), MOTE_OK);
+        assert_int_equal(accepts(mesh, field, &rows[k].weight, NULL), rows[k].fine);
+        if (!rows[k].fine)
+            assert_non_null(strstr(mote_error_text(), "weights: number 0 is "));
+        mote_field_destroy(field);
+        mote_mesh_destroy(mesh);
+    }
+}
+
+/* What is accepted is answered: far away, and with a mode that is next to nothing. */
+TEST(weights_of_modes_that_are_accepted_are_answered)
+{
+    static const double sizes[] = {1e-290, 1e-30, 1, 1e30, 1e290};
+    static const double unit[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint32_t faces[12] = {0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3};
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(unit, 4, faces, 4, &mesh), MOTE_OK);
+    for (size_t k = 0; k < ROWS_OF(sizes); ++k) {
+        test_row("mode %g", sizes[k]);
+        mote_vec3 modes[4];
+        for (int i = 0; i < 4; ++i)
+            modes[i] = mote_vec3_make(0, 0, sizes[k]);
+        mote_field *field = NULL;
+        assert_int_equal(mote_field_create_modes(modes, 1, 4, &field), MOTE_OK);
+        const mote_batch_options options = mote_default_batch_options();
+        mote_batch *batch = NULL;
+        assert_int_equal(mote_batch_create((const mote_mesh *const[]){mesh, mesh},
+                                           (const mote_field *const[]){field, NULL}, &options,
+                                           &batch),
+                         MOTE_OK);
+        const double weight = 4 / sizes[k]; /* from z = 0 .. 1 to 4 .. 5 */
+        const mote_controls controls[2] = {{.weights = &weight}, {.pose = NULL}};
+        double distance = 0, lower = 0;
+        const mote_batch_run run = {.frames = 1,
+                                    .stretch = 1,
+                                    .threads = 1,
+                                    .tolerance = -1,
+                                    .distance = &distance,
+                                    .lower = &lower};
+        assert_int_equal(mote_batch_query(batch, controls, &run), MOTE_OK);
+        assert_true(fabs(distance - 3) < 1e-12 && lower <= distance && lower > 3 - 1e-9);
+        mote_batch_destroy(batch);
+        mote_field_destroy(field);
+    }
     mote_mesh_destroy(mesh);
 }
