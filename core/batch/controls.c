@@ -1,6 +1,6 @@
 #include "core/batch/controls.h"
 
-#include "core/body/modes.h"
+#include "core/body/field_kinds.h"
 #include "core/skin/skin.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Shared by the sources of all kinds of fields. */
+/* Shared by the sources of all kinds of fields, and by those that tell the kinds apart. */
 #ifndef MOTE_CORE_FIELD_KINDS_H
 #define MOTE_CORE_FIELD_KINDS_H
 
@@ -10,6 +10,10 @@ mote_vec3 mote_field_sum(const mote_field *field, const mote_mesh *mesh, uint32_
                          const mote_weights *weights);
 void mote_field_sum_single(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                            const mote_weights_single *weights, float sum[3]);
+
+/* Of a field of linear modes, the largest coordinate of each mode's displacements, by its
+   absolute value, [count / 3]; NULL for a field of another kind. */
+const double *mote_modes_largest(const mote_field *field);
 
 /* Wendland's C2 function (1-r)^4 (4r+1) for 0 <= r < 1, else 0, an infinite r included. */
 static inline double mote_wendland_c2(double r)

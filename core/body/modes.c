@@ -1,6 +1,4 @@
 /* Linear modes: a displacement vector per vertex and mode. */
-#include "core/body/modes.h"
-
 #include "core/body/field_kinds.h"
 
 #include <math.h>
@@ -8,7 +6,7 @@
 #include <string.h>
 
 typedef struct modes_data {
-    double *largest; /* [count / 3]: see modes.h; behind phi */
+    double *largest; /* [count / 3]: see field_kinds.h; behind phi */
     double phi[];    /* [vertex_count][padded] */
 } modes_data;
 
