@@ -180,7 +180,7 @@ class Field(_Shared):
         """Adds displacements: vertex i moves by the sum over modes m of w_m modes[m, i].
 
         modes: float64 (m, vertices, 3), lengths, in the mesh's axes. A frame's weights: float64
-        (m,).
+        (m,), pure numbers; each times the largest coordinate of its mode is at most 2^50 L.
         """
         owner = mesh_of("mesh", mesh)
         vectors = numbers("modes", modes, (ANY, owner.vertex_count, 3))
@@ -203,6 +203,10 @@ class Field(_Shared):
         A frame's weights: float64 (bones, 3, 4), or (bones, 4, 4): matrices that take rest
         coordinates to posed ones, before the body's pose; scale and shear are allowed. With
         targets, a tuple of that and an array (targets,); either may be None, for rest.
+
+        The body is the one with the weights that are kept: multiples of 2^-24 that add up to 1 at
+        each vertex. Distances are exact, and bounds proven, for that body. By the formula a vertex of
+        k bones is elsewhere, by less than k 2^-24 of the largest distance between its images M_b x_i.
         """
         owner = mesh_of("mesh", mesh)
         start, bone, weight, count = _influences(owner.vertex_count, weights, bones, bone_count)
@@ -225,7 +229,11 @@ class Field(_Shared):
         """Morph targets (blend shapes): vertex i moves by the sum over k of a_k targets[k, i].
 
         targets: float64 (k, vertices, 3), displacements in the mesh's axes; zeros cost nothing. A
-        frame's weights: the amounts, float64 (k,), any finite numbers.
+        frame's weights: the amounts, float64 (k,), pure numbers; each is at most 2^50, and
+        times the largest coordinate of its target at most 2^50 L.
+
+        The body is the one with the displacements that are kept: each coordinate to within 2^-24 of
+        the largest of its target. Distances are exact, and bounds proven, for that body.
         """
         owner = mesh_of("mesh", mesh)
         given = _targets(owner.vertex_count, targets)
