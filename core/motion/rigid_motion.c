@@ -86,6 +86,14 @@ static mote_quaternion turn_of_step(const mote_mass *mass, mote_vec3 momentum, d
     return turn;
 }
 
+static bool is_finite(const mote_rigid_state *state)
+{
+    const mote_quaternion q = state->turn;
+    const mote_vec3 c = state->centre, v = state->velocity;
+    return isfinite(0 * (q.w + q.x + q.y + q.z) + 0 * (c.x + c.y + c.z) +
+                    0 * (v.x + v.y + v.z));
+}
+
 mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double step,
                             mote_rigid_state *state)
 {
@@ -97,9 +105,17 @@ mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double ste
     /* The same rotation about world axes. */
     const mote_vec3 world = mote_rotate(&axes, mote_vec3_make(main.x, main.y, main.z));
     const mote_quaternion turn = {main.w, world.x, world.y, world.z};
-    state->turn = mote_quaternion_normalise(mote_quaternion_multiply(turn, state->turn));
-    const mote_vec3 before = state->velocity;
-    state->velocity = mote_add_scaled(before, step, gravity);
-    state->centre = mote_add_scaled(state->centre, step / 2, mote_add(before, state->velocity));
+    mote_rigid_state next = *state;
+    next.turn = mote_quaternion_normalise(mote_quaternion_multiply(turn, state->turn));
+    next.velocity = mote_add_scaled(state->velocity, step, gravity);
+    next.centre =
+        mote_add_scaled(state->centre, step / 2, mote_add(state->velocity, next.velocity));
+    if (!is_finite(&next))
+        return mote_fail(
+            MOTE_EINVAL,
+            "a time step of %g: after it the body's rotation, place or velocity is "
+            "not finite; give a shorter one",
+            step);
+    *state = next;
     return MOTE_OK;
 }

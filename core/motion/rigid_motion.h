@@ -39,9 +39,11 @@ double mote_rigid_kinetic_energy(const mote_mass *mass, const mote_rigid_state *
 /* Advances the state by a time step > 0 under a constant acceleration of gravity (zero: none).
    The rotation is the implicit midpoint rule of Euler's equations with the Cayley map, which
    keeps angular momentum and energy to rounding at any step for which its fixed-point iteration
-   converges: |w| step below about 1; beyond that the energy drifts, but nothing overflows. The
-   error of the orientation is of second order. The path of the centre is exact. MOTE_EINVAL for
-   a step that is not above 0 and finite. No allocation. */
+   converges: |w| step below about 1; beyond that the energy drifts. The error of the
+   orientation is of second order. The path of the centre is exact. MOTE_EINVAL for a step that
+   is not above 0 and finite, or after which a number of the state would not be finite: where
+   the place or velocity leaves the range of doubles, or |w| step is above some 1e153, whose
+   square does. The state then stays as it is. No allocation. */
 mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double step,
                             mote_rigid_state *state);
 

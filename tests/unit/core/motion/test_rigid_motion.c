@@ -175,3 +175,32 @@ TEST(rigid_step_bad_step_refused)
         assert_true(s.centre.x == 0);
     }
 }
+
+/* Any finite step is answered with finite numbers, or refused with the state as it was. */
+TEST(rigid_step_enormous_steps_leave_the_state_finite)
+{
+    static const struct {
+        double step, speed;
+        bool fine;
+    } rows[] = {{1e100, 1, true},  {1e150, 1, true},    {1e153, 1, true},
+                {1e160, 1, false}, {1e200, 1, false},   {1e300, 1, false},
+                {1e308, 0, false}, {1e10, 1e290, true}, {1e20, 1e290, false}};
+    const mote_mass mass = top_of(1, 2, 2.5);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("step %g, speed %g", rows[i].step, rows[i].speed);
+        mote_rigid_state s = {.turn = {1, 0, 0, 0},
+                              .velocity = {rows[i].speed, 0, 0},
+                              .angular_momentum = {0.1, 0.2, 0.3}};
+        const mote_rigid_state before = s;
+        const mote_status status = mote_rigid_step(&mass, nothing, rows[i].step, &s);
+        assert_int_equal(status, rows[i].fine ? MOTE_OK : MOTE_EINVAL);
+        if (!rows[i].fine) {
+            assert_non_null(strstr(mote_error_text(), "give a shorter one"));
+            assert_memory_equal(&s, &before, sizeof s);
+            continue;
+        }
+        const mote_quaternion q = s.turn;
+        assert_close(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1, 1e-12);
+        assert_true(fabs(s.centre.x) < HUGE_VAL);
+    }
+}
