@@ -607,7 +607,7 @@ double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest
         return point_scaled(p, t, power, closest);
     face f = make_face(t);
     candidate c = {.squared = HUGE_VAL, .q = t[0]}; /* all, where p is not finite */
-    bool flat = f.nn <= FLAT_SINE_SQUARED * f.ee;
+    bool flat = f.nn <= FLAT_SINE_SQUARED * f.ee + LEAST_PRODUCT;
     if (!flat && drop_vertex(&f, p, false, &c)) {
         set(closest, c.q);
         return c.squared;

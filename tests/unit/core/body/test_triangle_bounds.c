@@ -134,7 +134,7 @@ TEST(below_of_pairs_apart_by_rounding_is_the_distance)
     assert_true(apart > 10000);
 }
 
-/* The longest edge is 5: touching is below 4.5e-16 x 5 = 2.2e-15. */
+/* The longest edge is 5: touching is at most 2^-51 x 5 = 2.2e-15. */
 TEST(pairs_apart_by_more_than_rounding_do_not_touch)
 {
     const mote_vec3 s[3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
@@ -164,5 +164,24 @@ TEST(segment_through_a_face_touches_at_any_slope)
         assert_true(mote_triangle_triangle(s, t, &p, &q) == 0);
         assert_true(p.x == 0.25 && p.y == 0.25 && p.z == 0);
         assert_true(mote_triangle_triangle(t, s, NULL, NULL) == 0);
+    }
+}
+
+/* An edge so much shorter than the others that the square of the normal has lost bits, or is 0:
+   as a segment, of which one end is nearest, or the middle. */
+TEST(point_triangle_with_one_edge_next_to_nothing_is_that_of_a_segment)
+{
+    for (int k = 300; k <= 600; ++k) {
+        test_row("short edge 2^-%d", k);
+        const double e = ldexp(1, -k);
+        const mote_vec3 t[3] = {{0, 0, 0}, {-e, -3 * e, 0}, {-1, 0, 0}};
+        for (int turn = 0; turn < 3; ++turn) {
+            const mote_vec3 u[3] = {t[turn], t[(turn + 1) % 3], t[(turn + 2) % 3]};
+            mote_vec3 p;
+            const double end = mote_point_triangle(mote_vec3_make(0, -0.01, 0), u, &p);
+            assert_true(fabs(sqrt(end) - 0.01) < 1e-15 && fabs(p.x) < 1e-15);
+            const double side = mote_point_triangle(mote_vec3_make(-0.5, 3, 4), u, &p);
+            assert_true(fabs(sqrt(side) - 5) < 1e-14 && fabs(p.x + 0.5) < 1e-15);
+        }
     }
 }
