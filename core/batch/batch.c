@@ -35,11 +35,11 @@ static mote_status copy_samples(mote_batch *batch, int b, const mote_batch_optio
 {
     const size_t count = options->sample_count[b];
     mote_body *body = &batch->body[b];
-    if (count == 0 || body->field->padded == 0)
-        return MOTE_OK;
     if (count > 64)
         return mote_fail(MOTE_EINVAL, "samples: body %d has %zu; at most 64 are useful", b,
                          count);
+    if (count == 0 || body->field->padded == 0)
+        return MOTE_OK;
     batch->samples[b] = calloc(count, sizeof *batch->samples[b]);
     batch->sample_numbers[b] = allocate_room(body->field, count);
     if (!batch->samples[b] || !batch->sample_numbers[b])

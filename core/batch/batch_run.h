@@ -19,11 +19,12 @@ typedef struct mote_batch_run {
     double tolerance; /* of a contact question, absolute; negative: the distance is asked */
     /* Written for each frame; each may be NULL. */
     double *distance; /* [frames], of the witnesses: exact where the distance is asked and
-                         neither slack nor budget ended the query, else an upper bound */
+                         neither slack nor budget nor coordinates from 2.8e17 L on
+                         (certificate.h) ended the query, else an upper bound */
     double *lower;    /* [frames], proven: 0 <= lower <= distance */
     double *witness;  /* [frames][2][3], world points on the two surfaces */
-    int8_t *contact;  /* [frames]: 1: distance <= tolerance, 0: not so, -1: not decided within
-                         slack or budget; where distances are asked for, contact is at the
+    int8_t *contact;  /* [frames]: 1: distance <= tolerance, 0: not so, -1: not decided, for
+                         the same reasons; where distances are asked for, contact is at the
                          tolerance 0 */
 } mote_batch_run;
 
@@ -31,8 +32,8 @@ typedef struct mote_batch_run {
 typedef struct mote_batch_options {
     double slack;    /* >= 0, finite: a query stops when upper - lower <= slack * L */
     uint64_t budget; /* box tests after which a query stops and returns its bracket */
-    /* Likely shapes of each body (mote_body.samples), at most 64, of which poses are not read.
-     */
+    /* Likely shapes of each body (mote_body.samples), at most 64, of which poses are not read;
+       of a body that never deforms they say nothing */
     size_t sample_count[2];
     mote_controls samples[2];
 } mote_batch_options;

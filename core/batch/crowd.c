@@ -298,7 +298,7 @@ void mote_crowd_pairs(const mote_crowd *crowd, uint32_t *pairs, double *distance
         if (lower)
             lower[k] = found[k].lower;
         if (contact)
-            contact[k] = found[k].contact;
+            contact[k] = found[k].decided ? found[k].contact : -1;
         for (size_t b = 0; witness && b < 2; ++b)
             write_point(witness + 6 * k + 3 * b, found[k].witness[b]);
     }

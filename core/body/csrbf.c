@@ -251,14 +251,18 @@ static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};
 
+/* 1 / support is finite above it. */
+#define LEAST_SUPPORT 0x1p-1024
+
 static mote_status check_input(const mote_vec3 *centres, uint32_t count, double support)
 {
     if (count < 1 || count > MOTE_FIELD_MAX)
         return mote_fail(MOTE_EINVAL, "a CSRBF field has 1 to %d centres, not %u",
                          MOTE_FIELD_MAX, count);
-    if (!(support > 0) || !isfinite(support) || !isfinite(1 / support))
-        return mote_fail(MOTE_EINVAL,
-                         "the support radius is %g; it must be positive and finite", support);
+    if (!(support > LEAST_SUPPORT) || !isfinite(support))
+        return mote_fail(
+            MOTE_EINVAL,
+            "the support radius is %g; it must be finite and above 2^-1024, 5.6e-309", support);
     for (uint32_t j = 0; j < count; ++j) {
         if (!isfinite(centres[j].x) || !isfinite(centres[j].y) || !isfinite(centres[j].z))
             return mote_fail(MOTE_EINVAL, "centre %u is not finite", j);

@@ -152,8 +152,9 @@ mote_status mote_field_create_static(mote_field **field);
 mote_status mote_field_create_given(mote_field **field);
 
 /* Compactly supported radial basis functions, Wendland C2: (1-r)^4 (4r+1) for r < 1, else 0.
-   centres: count (1 .. MOTE_FIELD_MAX) positions in rest space, copied; support > 0.
-   MOTE_EINVAL for anything else or not finite; MOTE_ENOMEM. Source: paper section 4. */
+   centres: count (1 .. MOTE_FIELD_MAX) positions in rest space, copied; support > 2^-1024
+   (5.6e-309), so that 1 / support is finite. MOTE_EINVAL for anything else or not finite;
+   MOTE_ENOMEM. Source: paper section 4. */
 mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, double support,
                                     mote_field **field);
 

@@ -47,8 +47,11 @@ static inline int mote_pair_order(const uint32_t a[2], const uint32_t b[2])
 typedef struct mote_scene_pair {
     uint32_t body[2]; /* body[0] < body[1] */
     uint32_t steps;   /* for how many steps it has been near, up to and including this one */
-    bool contact;     /* distance <= tolerance, exactly */
-    double distance;  /* of the witnesses; with MOTE_ASK_CONTACT an upper bound */
+    bool contact;     /* distance <= tolerance, exactly where that is decided */
+    bool decided;     /* always, but where coordinates from 2.8e17 L on (certificate.h) leave a
+                         bracket around the tolerance: lower <= tolerance < distance */
+    double distance;  /* of the witnesses; with MOTE_ASK_CONTACT, and from there on, an upper
+                         bound */
     double lower;     /* proven, <= distance */
     mote_vec3 witness[2]; /* world points on the two bodies */
     mote_counters counters;

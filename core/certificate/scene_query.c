@@ -200,6 +200,7 @@ static void answer_pair(mote_scene *s, mote_certificate *workspace, mote_scene_p
     pair->distance = answer.distance;
     pair->lower = answer.lower;
     pair->contact = answer.distance <= s->options.tolerance;
+    pair->decided = pair->contact || answer.lower > s->options.tolerance || !answer.stopped;
     pair->witness[0] = answer.witness[0];
     pair->witness[1] = answer.witness[1];
     pair->counters = answer.counters;

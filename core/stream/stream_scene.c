@@ -192,6 +192,7 @@ static void answer_pair(mote_stream_scene *scene, mote_stream_search *s, mote_sc
     s->scale = scene->scale;
     s->origin = mote_scale(mote_add(s->best.witness[0], s->best.witness[1]), 0.5);
     pair->distance = (double)NAN;
+    pair->decided = false;
     if (!isfinite(s->upper) || (!s->done && mote_stream_prove(s, !near) != MOTE_OK))
         return;
     mote_certificate_answer answer;
@@ -199,6 +200,7 @@ static void answer_pair(mote_stream_scene *scene, mote_stream_search *s, mote_sc
     pair->distance = answer.distance;
     pair->lower = answer.lower;
     pair->contact = answer.distance <= scene->options.tolerance;
+    pair->decided = true;
     pair->witness[0] = answer.witness[0];
     pair->witness[1] = answer.witness[1];
     pair->counters = answer.counters;

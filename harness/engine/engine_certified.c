@@ -14,7 +14,7 @@ void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_
                                            .answer = {.has_distance = distance,
                                                       .has_lower = true,
                                                       .has_witness = distance || p->contact,
-                                                      .has_contact = true,
+                                                      .has_contact = p->decided,
                                                       .contact = p->contact,
                                                       .distance = p->distance,
                                                       .lower = p->lower,

@@ -163,8 +163,8 @@ class Field(_Shared):
         """Moves space around control points: vertex x by the sum over centres c of
         phi(|x - c| / support) w_c, where phi(r) = (1 - r)^4 (4 r + 1) for r < 1, else 0.
 
-        centres: float64 (n, 3), 1 to 65,528 of them, in the mesh's axes at rest. support: > 0, a
-        length. Fits any mesh. A frame's weights: float64 (n, 3), lengths, in the mesh's axes, so
+        centres: float64 (n, 3), 1 to 65,528 of them, in the mesh's axes at rest. support: a
+        length, above 5.6e-309. Fits any mesh. A frame's weights: float64 (n, 3), lengths, in the mesh's axes, so
         that they turn with the body's pose.
         """
         points = numbers("centres", centres, (ANY, 3))

@@ -10,7 +10,8 @@ import numpy as np
 class Distance(NamedTuple):
     """The distance of two bodies in a frame."""
 
-    #: From surface to surface, between the witnesses; exact unless slack or budget ended the query.
+    #: From surface to surface, between the witnesses; exact unless slack, budget or coordinates
+    #: from 2.8e17 L on ended the query.
     distance: float
     #: A proven bound: no two points of the bodies are nearer.
     lower: float
@@ -21,7 +22,8 @@ class Distance(NamedTuple):
 class Contact(NamedTuple):
     """Whether two bodies are within the tolerance of each other in a frame."""
 
-    #: None where slack or budget ended the query before it was decided.
+    #: None where slack, budget or coordinates from 2.8e17 L on ended the query before it was
+    #: decided.
     contact: Optional[bool]
     #: Of the witnesses: an upper bound, since the query ends when contact is decided.
     distance: float
@@ -45,7 +47,8 @@ class Distances(NamedTuple):
 class Contacts(NamedTuple):
     """Contact of many frames."""
 
-    #: int8 (frames,): 1 contact, 0 none, -1 where slack or budget ended the query before
+    #: int8 (frames,): 1 contact, 0 none, -1 where slack, budget or coordinates from 2.8e17 L on
+    #: ended the query before
     contact: np.ndarray
     #: float64 (frames,)
     distance: np.ndarray
@@ -60,7 +63,8 @@ class Near(NamedTuple):
 
     #: uint32 (n, 2): i < j, ascending
     pairs: np.ndarray
-    #: bool (n,): distance <= tolerance
+    #: bool (n,): distance <= tolerance. Coordinates from 2.8e17 L on may leave that open: it is
+    #: True then, with a distance above the tolerance.
     contact: np.ndarray
     #: float64 (n,): exact; an upper bound in a scene that asks for contacts
     distance: np.ndarray

@@ -182,7 +182,7 @@ class Scene(lib.Guarded):
             address_of, address(pairs), address(distance), address(lower), address(witness),
             address(contact),
         )
-        return Near(pairs, contact.astype(bool), distance, lower, witness)
+        return Near(pairs, contact != 0, distance, lower, witness)
 
     def _after_fork(self) -> None:
         """The threads are not in the child process, and must not be waited for."""

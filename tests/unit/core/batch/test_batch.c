@@ -467,6 +467,22 @@ TEST(bodies_of_one_shape_share_their_tree)
     two_free();
 }
 
+/* Of a body that never deforms, too. */
+TEST(more_than_64_samples_are_refused)
+{
+    two_init(kinds[0], 87);
+    const mote_mesh *const meshes[2] = {t.body[0].mesh, t.body[0].mesh};
+    const mote_field *const fields[2] = {t.body[0].field, NULL};
+    for (int b = 0; b < 2; ++b) {
+        mote_batch_options options = mote_default_batch_options();
+        options.sample_count[b] = 65;
+        mote_batch *batch = NULL;
+        assert_int_equal(mote_batch_create(meshes, fields, &options, &batch), MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), "has 65; at most 64 are useful"));
+    }
+    two_free();
+}
+
 /* Reads one frame's controls of a field; returns whether they are accepted. */
 static bool accepts(const mote_mesh *mesh, const mote_field *field, const double *weights,
                     const double *amounts)

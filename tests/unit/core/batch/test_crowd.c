@@ -256,3 +256,53 @@ TEST(bad_input_is_named)
     mote_field_destroy(given);
     crowd_free(&c);
 }
+
+/* A thousand weights of 1e15, each in range, take two bodies 1e18 L away, where no nearest pair
+   is searched for: whether they touch stays open, unless the tolerance says more than the
+   bracket. */
+TEST(contact_beyond_the_range_of_floats_is_not_denied)
+{
+    enum { CENTRES = 1000 };
+    static const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint32_t faces[12] = {0, 2, 1, 0, 3, 2, 0, 1, 3, 1, 2, 3};
+    static const struct {
+        double apart, tolerance;
+        int contact;
+    } rows[] = {{1e3, 0, -1}, {1e3, 1e30, 1}, {1e15, 1, -1}};
+    static double weights[3 * CENTRES], pose[2][12];
+    static const mote_vec3 centres[CENTRES]; /* all at 0 */
+    mote_mesh *mesh = NULL;
+    mote_field *field = NULL;
+    assert_int_equal(mote_mesh_create(corners, 4, faces, 4, &mesh), MOTE_OK);
+    assert_int_equal(mote_field_create_csrbf(centres, CENTRES, 100, &field), MOTE_OK);
+    for (size_t j = 0; j < CENTRES; ++j)
+        weights[3 * j] = 1e15;
+    for (size_t k = 0; k < 2 * ROWS_OF(rows); ++k) {
+        const double apart = rows[k / 2].apart, tolerance = rows[k / 2].tolerance;
+        test_row("row %zu, asking for %s", k / 2, k % 2 ? "contact" : "the distance");
+        const mote_crowd_options options = {
+            .tolerance = tolerance, .contact = k % 2, .threads = 1};
+        mote_crowd *made = NULL;
+        assert_int_equal(mote_crowd_create((const mote_mesh *const[]){mesh},
+                                           (const mote_field *const[]){field}, 1,
+                                           (const uint32_t[]){0, 0}, 2, &options, &made),
+                         MOTE_OK);
+        for (size_t i = 0; i < 2; ++i)
+            memcpy(pose[i], (double[12]){1, 0, 0, 0, 0, 1, 0, i ? apart : 0, 0, 0, 1, 0},
+                   sizeof pose[i]);
+        const mote_controls controls[2] = {
+            {.pose = pose[0], .weights = weights, .pose_rows = 3},
+            {.pose = pose[1], .weights = weights, .pose_rows = 3}};
+        size_t count = 0;
+        assert_int_equal(mote_crowd_step(made, controls, HUGE_VAL, &count), MOTE_OK);
+        assert_int_equal(count, 1);
+        int8_t contact;
+        double distance, lower;
+        mote_crowd_pairs(made, NULL, &distance, &lower, NULL, &contact);
+        assert_int_equal(contact, rows[k / 2].contact);
+        assert_true(lower <= apart && lower <= distance);
+        mote_crowd_destroy(made);
+    }
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}

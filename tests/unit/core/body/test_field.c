@@ -475,15 +475,20 @@ TEST(create_csrbf_with_bad_input_says_what)
     mote_vec3 centre[2] = {{0, 0, 0}, {1, 0, 0}};
     expect_csrbf_error(centre, 0, 1, "a CSRBF field has 1 to 65528 centres, not 0");
     expect_csrbf_error(centre, 65529, 1, "a CSRBF field has 1 to 65528 centres, not 65529");
-    expect_csrbf_error(centre, 2, 0, "the support radius is 0; it must be positive and finite");
-    expect_csrbf_error(centre, 2, -1,
-                       "the support radius is -1; it must be positive and finite");
-    expect_csrbf_error(centre, 2, HUGE_VAL,
-                       "the support radius is inf; it must be positive and finite");
-    expect_csrbf_error(centre, 2, 1e-310, /* its reciprocal overflows */
-                       "the support radius is 1e-310; it must be positive and finite");
-    expect_csrbf_error(centre, 2, nan(""),
-                       "the support radius is nan; it must be positive and finite");
+    expect_csrbf_error(
+        centre, 2, 0, "the support radius is 0; it must be finite and above 2^-1024, 5.6e-309");
+    expect_csrbf_error(
+        centre, 2, -1,
+        "the support radius is -1; it must be finite and above 2^-1024, 5.6e-309");
+    expect_csrbf_error(
+        centre, 2, HUGE_VAL,
+        "the support radius is inf; it must be finite and above 2^-1024, 5.6e-309");
+    expect_csrbf_error(
+        centre, 2, 1e-310, /* its reciprocal overflows */
+        "the support radius is 1e-310; it must be finite and above 2^-1024, 5.6e-309");
+    expect_csrbf_error(
+        centre, 2, nan(""),
+        "the support radius is nan; it must be finite and above 2^-1024, 5.6e-309");
     centre[1].x = nan("");
     expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");
     centre[1] = mote_vec3_make(0, nan(""), 0);
