@@ -32,8 +32,8 @@ typedef struct mote_dynamics_size {
                             1,000, 200 for FCL, and further laws and scenes */
     uint32_t approaches; /* this many for every row, unless 0 */
     const char *scene;   /* only this scene, unless NULL */
-    double step; /* only rows of sampled and continuous steps of this many frames, which
-                    mote_dynamics_has_step, unless 0 */
+    double step;         /* only rows of sampled and continuous steps of this many frames, which
+                            mote_dynamics_has_step, unless 0 */
 } mote_dynamics_size;
 
 /* Whether the study has rows of so many frames a step: 1, 3, 10 or 30. */
