@@ -351,20 +351,6 @@ double mote_statistics_half_width(double median, mote_confidence interval)
     return isnan(width) ? HUGE_VAL : width;
 }
 
-mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count)
-{
-    mote_confidence interval = {MOTE_NONE, MOTE_NONE};
-    /* The most values that may lie outside on one side. */
-    unsigned outside = 0;
-    while (gsl_cdf_binomial_P(outside, 0.5, (unsigned)count) <= 0.025)
-        ++outside;
-    if (outside == 0)
-        return interval;
-    interval.low = sorted[outside - 1];
-    interval.high = sorted[count - outside];
-    return interval;
-}
-
 void mote_statistics_holm(double *p, size_t count, double *work)
 {
     size_t known = 0;

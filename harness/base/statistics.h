@@ -78,10 +78,6 @@ typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t
 mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
                                                  size_t processes, uint64_t seed);
 
-/* Interval of the median that assumes only independence: order statistics by the sign test, at
-   least 95 %. sorted ascending; MOTE_NONE below six values. */
-mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count);
-
 /* Corrects the p-values of one table by Holm's method, in place; MOTE_NONE stays and does not
    count. work holds count doubles. */
 void mote_statistics_holm(double *p, size_t count, double *work);

@@ -1,7 +1,7 @@
 /* mote compare BASE NEW: is one run better or worse than another? */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 #include "harness/base/record.h"
 
 #include <math.h>

@@ -110,6 +110,14 @@ static uint32_t reference_rank(const mote_summary_row *row)
     return UINT32_MAX;
 }
 
+/* Whether rows ask the same of the same frames, though the budget may have cut one short: their
+   contacts are compared as far as both have got. */
+static bool asks_the_same(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return mote_summary_by_scene(a, b) == 0 && a->frame_range[0] == b->frame_range[0] &&
+           a->frame_range[1] == b->frame_range[1];
+}
+
 static const mote_summary_row *find_reference(const mote_summary_row *rows, size_t count,
                                               const mote_summary_row *row)
 {
@@ -117,7 +125,7 @@ static const mote_summary_row *find_reference(const mote_summary_row *rows, size
     uint32_t least = UINT32_MAX;
     for (size_t k = 0; k < count; ++k) {
         const uint32_t rank = reference_rank(&rows[k]);
-        if (rows[k].finished > 0 && rank < least && mote_summary_same_block(&rows[k], row)) {
+        if (rows[k].finished > 0 && rank < least && asks_the_same(&rows[k], row)) {
             least = rank;
             best = &rows[k];
         }

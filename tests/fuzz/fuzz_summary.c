@@ -1,6 +1,6 @@
 /* Any text as the summaries of two runs, compared: the base's before a line of "====", the new
    one's after it. */
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdio.h>

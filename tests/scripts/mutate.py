@@ -42,7 +42,7 @@ EQUIVALENT = "tests/mutants_equivalent.txt"
 MODULES = {
     "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "few answers", "test_triangle"]),
     "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
-                                              "test_statistics_order", "test_statistics_intervals"]),
+                                              "test_statistics_holm", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate/*.c",
         ["test_certificate_bounds", "test_certificate_box", "test_certificate_split",

@@ -3,7 +3,7 @@
    takes minutes, so make test leaves it out.
 
    perf_planted DIR [RUNS] */
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 #include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/run/run.h"

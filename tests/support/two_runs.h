@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_TWO_RUNS_H
 #define MOTE_TESTS_TWO_RUNS_H
 
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 #include "harness/base/record.h"
 #include "tests/support/mote.h"
 #include "tests/support/test.h"

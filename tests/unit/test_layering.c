@@ -35,7 +35,7 @@ static const house houses[] = {
       "batch", "motion"}},
     {"harness",
      {"base", "process", "engine", "gltf", "mesh", "sequence", "scene", "run", "loop",
-      "summary", "race", "figure", "study", "report", "command"}},
+      "summary", "compare", "race", "figure", "study", "report", "command"}},
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 

@@ -5,23 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
-
 static void assert_near(double value, double expected, double tolerance)
 {
     if (!(fabs(value - expected) <= tolerance))
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
-}
-
-TEST(sign_interval_of_ten_values_is_second_to_ninth)
-{
-    /* P(Bin(10, 1/2) <= 1) = 11 / 1024 <= 0.025 < P(<= 2): the table's 97.9 % interval. */
-    const double sorted[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
-    mote_confidence interval = mote_statistics_sign_interval(sorted, 10);
-    assert_near(interval.low, 2, 0);
-    assert_near(interval.high, 9, 0);
-    assert_true(isnan(mote_statistics_sign_interval(sorted, 5).low));
-    assert_near(mote_statistics_sign_interval(sorted, 6).low, 1, 0);
 }
 
 TEST(holm_of_four_values_is_the_textbook_one)

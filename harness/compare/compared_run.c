@@ -1,4 +1,4 @@
-#include "harness/summary/compared_run.h"
+#include "harness/compare/compared_run.h"
 
 #include "core/method/method.h"
 #include "harness/base/record.h"

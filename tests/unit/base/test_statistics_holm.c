@@ -1,34 +1,14 @@
-/* Order statistics against the table of the sign test, and Holm's correction. */
+/* Holm's correction at its limits. */
 #include "harness/base/statistics.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 #include <stdint.h>
 
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
-
 static void assert_near(double value, double expected, double tolerance)
 {
     if (!(fabs(value - expected) <= tolerance * fabs(expected)))
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
-}
-
-TEST(sign_interval_is_that_of_the_table)
-{
-    /* The ranks, from either end, of the 95 % interval of the median, for 6 .. 25 values. */
-    static const int ranks[] = {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 8};
-    double sorted[25];
-    for (size_t i = 0; i < COUNT(sorted); ++i)
-        sorted[i] = (double)i + 1;
-    for (size_t n = 6; n <= 25; ++n) {
-        mote_confidence interval = mote_statistics_sign_interval(sorted, n);
-        assert_near(interval.low, ranks[n - 6], 0);
-        assert_near(interval.high, (double)n + 1 - ranks[n - 6], 0);
-    }
-    for (size_t n = 0; n < 6; ++n) {
-        mote_confidence interval = mote_statistics_sign_interval(sorted, n);
-        assert_true(isnan(interval.low) && isnan(interval.high));
-    }
 }
 
 TEST(holm_never_falls_below_a_smaller_one_nor_exceeds_one)

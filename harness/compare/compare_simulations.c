@@ -1,4 +1,4 @@
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 
 #include "harness/base/memory.h"
 #include "harness/loop/simulate_print.h"

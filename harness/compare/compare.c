@@ -1,9 +1,9 @@
-#include "harness/summary/compare.h"
+#include "harness/compare/compare.h"
 
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/summary/column.h"
-#include "harness/summary/compared_run.h"
+#include "harness/compare/compared_run.h"
 #include "harness/summary/scene_contacts.h"
 
 #include <stdlib.h>
