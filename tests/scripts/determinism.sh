@@ -18,7 +18,7 @@ cache=$(command -v ccache || true)
 
 sources=$(ls core/*/*.c datasets/*.c harness/{base,engine,gltf,mesh,scene,sequence}/*.c |
     grep -v -e core/certificate/plain.c -e core/base/version.c)
-for name in child confine crew spawn; do
+for name in child confine crew spawn stop; do
     sources="$sources harness/process/$name.c"
 done
 sources="$sources tests/studies/answers.c $build/core_registry.c"

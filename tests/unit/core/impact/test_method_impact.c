@@ -121,7 +121,7 @@ TEST(impact_method_certified_without_an_answer)
                    a.s.of[1].piece[0].centre);
     assert_int_equal(query(&a, &answer), MOTE_OK);
     assert_true(!answer.answered && !answer.impact && !answer.has_witness);
-    assert_int_equal(answer.iterations, 1);
+    assert_in_range(answer.iterations, 2, 300); /* it looks for a touch until the end */
     a.s.of[1].piece[0].centre[2].y = NAN;
     assert_int_equal(query(&a, &answer), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "centre in piece 0 of body 1"));
