@@ -46,9 +46,9 @@ mote_status mote_crowd_step(mote_crowd *crowd, const mote_controls *controls, do
                             size_t *count);
 
 /* Copies what the last step found; each may be NULL. pairs[count][2]: i < j, ascending;
-   distance and lower[count]; witness[count][2][3]; contact[count], 1 or 0, or -1
-   where coordinates from 2.8e17 L on leave it undecided (scene.h). With contacts asked for,
-   distance is an upper bound. */
+   distance and lower[count]; witness[count][2][3]; contact[count], 1 or 0, or -1 where
+   coordinates from 2.8e17 L on leave it undecided (scene.h). With contacts asked for, distance
+   is an upper bound. */
 void mote_crowd_pairs(const mote_crowd *crowd, uint32_t *pairs, double *distance, double *lower,
                       double *witness, int8_t *contact);
 

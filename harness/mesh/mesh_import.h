@@ -24,17 +24,16 @@ mote_status mote_import_refuse_split(const char *path, const mote_import *import
 /* Reports on stderr, once per file, that some of its edges were cut apart. Not thread-safe. */
 void mote_import_tell_split(const char *path, const mote_import *import);
 
-/* Reads a mesh: OBJ, OFF and PLY with our own parsers in double precision; STL, glTF and others
-   with assimp. All but OBJ and OFF get vertices at the same place merged. It works in a child
-   process with limits of time and memory (4 seconds and 128 MB for a small file, proportionally
-   more for large ones, with the files that a name.gltf names), so no file can end or block the
-   caller. Files that it names are read only in its folder and below. An edge of more than two
-   faces is cut apart
-   (mesh_split.h): the surface stays the same bit for bit. MOTE_EINVAL with a text that names
-   the file and the place: a coordinate that is not finite, an index out of range, a face that
-   is not simple, no face. MOTE_EIO: the file cannot be read, or the child crashed or took too
-   long. MOTE_ENOMEM: the child needed more memory. import may be NULL. The caller destroys
-   *mesh. */
+/* Reads a mesh: OBJ, OFF and PLY with our own parsers in double precision; STL, glTF and
+   others with assimp. All but OBJ and OFF get vertices at the same place merged. It works in a
+   child process with limits of time and memory (4 seconds and 128 MB for a small file,
+   proportionally more for large ones, with the files that a name.gltf names), so no file can
+   end or block the caller. Files that it names are read only in its folder and below. An edge
+   of more than two faces is cut apart (mesh_split.h): the surface stays the same bit for bit.
+   MOTE_EINVAL with a text that names the file and the place: a coordinate that is not finite,
+   an index out of range, a face that is not simple, no face. MOTE_EIO: the file cannot be
+   read, or the child crashed or took too long. MOTE_ENOMEM: the child needed more memory.
+   import may be NULL. The caller destroys *mesh. */
 mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import);
 
 #endif

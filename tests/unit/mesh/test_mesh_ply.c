@@ -9,16 +9,19 @@
 
 #define VERTEX "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 #define LIST "property list uchar int vertex_indices\n"
-#define HEAD "ply\nformat ascii 1.0\n" VERTEX "element face 1\n" LIST "end_header\n"
-#define WHOLE HEAD "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+#define HEAD_OF(element)                                                                       \
+    "ply\nformat ascii 1.0\n" VERTEX "element " element " 1\n" LIST "end_header\n"
+#define BODY "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+#define HEAD HEAD_OF("face")
+#define WHOLE HEAD BODY
+#define STRIPS HEAD_OF("tristrips") BODY
 
 typedef struct row {
     const char *from, *to, *says;
 } row;
 
-static char *whole_but(const row *change)
+static char *changed(const char *whole, const row *change)
 {
-    static const char whole[] = WHOLE;
     const char *at = strstr(whole, change->from);
     assert_non_null(at);
     return mote_format("%.*s%s%s", (int)(at - whole), whole, change->to,
@@ -87,7 +90,7 @@ TEST(ply_that_is_written_otherwise_is_the_same_triangle)
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
         triangle got;
-        char *text = whole_but(&rows[i]);
+        char *text = changed(WHOLE, &rows[i]);
         test_row("%s", text);
         if (read(text, strlen(text), &got) != MOTE_OK)
             fail_msg("%s", mote_error_text());
@@ -106,6 +109,15 @@ static void refuse(const char *text, const char *says)
         fail_msg("%s", mote_error_text());
     assert_non_null(strstr(mote_error_text(), "; ")); /* and what would be right */
     mote_soup_free(&got.soup);
+}
+
+static void refuse_rows(const row *rows, size_t count, const char *whole)
+{
+    for (size_t i = 0; i < count; ++i) {
+        char *text = changed(whole, &rows[i]);
+        refuse(text, rows[i].says);
+        free(text);
+    }
 }
 
 TEST(ply_with_a_wrong_header_is_refused_with_its_line)
@@ -150,11 +162,7 @@ TEST(ply_with_a_wrong_header_is_refused_with_its_line)
         {"property list uchar int vertex_indices", "property int vertex_indices",
          "p.ply:9: no face element with vertex_indices"},
     };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        char *text = whole_but(&rows[i]);
-        refuse(text, rows[i].says);
-        free(text);
-    }
+    refuse_rows(rows, ROWS_OF(rows), WHOLE);
 }
 
 TEST(ply_with_wrong_entries_is_refused_with_their_number)
@@ -191,11 +199,7 @@ TEST(ply_with_wrong_entries_is_refused_with_their_number)
         {LIST, LIST "element odd 1\nproperty list int int a\n",
          "p.ply:16: ends after entry 0 of 1"},
     };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        char *text = whole_but(&rows[i]);
-        refuse(text, rows[i].says);
-        free(text);
-    }
+    refuse_rows(rows, ROWS_OF(rows), WHOLE);
 }
 
 TEST(ply_with_wrong_strips_is_refused_with_their_number)
@@ -210,15 +214,7 @@ TEST(ply_with_wrong_strips_is_refused_with_their_number)
         {"3 0 1 2", "0", "p.ply: no face in it; give triangles"},
         {"3 0 1 2", "4 0 0 1 1", "p.ply: each of its 2 faces has two corners at one"},
     };
-    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
-        const row strip = {"face 1", "tristrips 1", NULL};
-        char *text = whole_but(&rows[i]), *at = strstr(text, strip.from);
-        char *strips =
-            mote_format("%.*s%s%s", (int)(at - text), text, strip.to, at + strlen(strip.from));
-        refuse(strips, rows[i].says);
-        free(strips);
-        free(text);
-    }
+    refuse_rows(rows, ROWS_OF(rows), STRIPS);
 }
 
 /* Five vertices; faces, two strips in one list with a repeated corner that makes no triangle,
