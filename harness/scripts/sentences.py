@@ -114,7 +114,7 @@ SENTENCES = [
         span([1 / share_of_tree(root, case) for case in ("1m-letter", "1m-leaf")]))),
     ("docs/findings.md", "With 8 launches in each query it is exact in {:.0f} % of the frames on `comb` and misses {:.1f} contacts a run, for "
      "{:.1f} times the time", launches),
-    ("docs/characters.md", "Side by side the bison take {} us instead of {}, and their 95th percentile is {} us", lambda root: (
+    ("docs/characters.md", "Side by side the bison take {} µs instead of {}, and their 95th percentile is {} µs", lambda root: (
         characters(root)["bison-15k"][0], characters(root)["bison-near-15k"][0], characters(root)["bison-15k"][1])),
     ("docs/characters.md", "where bones alone move a body, an exact answer costs {:.1f} to {:.1f} times what rigid parts do",
      exact_to_parts),

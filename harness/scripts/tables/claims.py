@@ -6,9 +6,15 @@ from tables.records import file_of
 CLAIMS = "claims/claims.json"
 
 
+def unit_of(value):
+    """The unit of a value as it follows a number."""
+    unit = "µs" if value["unit"] == "us" else value["unit"]
+    return f" {unit}" if unit else ""
+
+
 def bound(value):
     """The thresholds of a value: for "holds", for "holds within limits", or one for both."""
-    unit = " " * bool(value["unit"]) + value["unit"]
+    unit = unit_of(value)
     holds, limits = value["threshold"]["holds"], value["threshold"]["limits"]
     levels = [f"{number:.4g}{unit}{level}" for number, level in
               ([(holds, "")] if holds == limits else [(holds, " to hold"), (limits, " within limits")])
@@ -25,7 +31,7 @@ def measured(value):
         return f"{name}: not measured, {bound(value)}"
     low, high = value["interval"] or (None, None)
     ends = "" if low == high else f" ({shown(low)} to {shown(high)})"
-    return f"{name}: {shown(value['value'])}{ends}{' ' * bool(value['unit'])}{value['unit']}, {bound(value)}"
+    return f"{name}: {shown(value['value'])}{ends}{unit_of(value)}, {bound(value)}"
 
 
 def claims_table(root):

@@ -25,7 +25,7 @@ def ratios(root):
 
 
 def ratios_table(root):
-    yield "| case | stream, us a frame | aabb-tree | best FCL | to the tree | to FCL |"
+    yield "| case | stream, µs a frame | aabb-tree | best FCL | to the tree | to FCL |"
     yield "| --- | ---: | ---: | ---: | ---: | ---: |"
     for case, values in ratios(root).items():
         yield f"| {case} | {cells(values)} |"
@@ -54,7 +54,7 @@ def autos(root):
 
 
 def auto_table(root):
-    yield "| scenario | certified, us a frame | stream | auto | auto to the better, median | sum from frame 50 on |"
+    yield "| scenario | certified, µs a frame | stream | auto | auto to the better, median | sum from frame 50 on |"
     yield "| --- | ---: | ---: | ---: | ---: | ---: |"
     for name, (*times, median, total) in autos(root).items():
         yield f"| {name} | {cells(times)} | {cells((median, total), '{:.2f}'.format)} |"
