@@ -4,6 +4,7 @@
 #define MOTE_CORE_VEC3_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct mote_vec3 {
     double x, y, z;
@@ -60,6 +61,12 @@ static inline mote_vec3 mote_cross(mote_vec3 a, mote_vec3 b)
 static inline double mote_length_squared(mote_vec3 a)
 {
     return mote_dot(a, a);
+}
+
+/* Whether all three coordinates are finite. */
+static inline bool mote_is_finite(mote_vec3 a)
+{
+    return isfinite(0 * a.x + 0 * a.y + 0 * a.z); /* 0 times any other number is NaN */
 }
 
 /* The largest of the coordinates' sizes. */

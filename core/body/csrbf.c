@@ -264,7 +264,7 @@ static mote_status check_input(const mote_vec3 *centres, uint32_t count, double 
             MOTE_EINVAL,
             "the support radius is %g; it must be finite and above 2^-1024, 5.6e-309", support);
     for (uint32_t j = 0; j < count; ++j) {
-        if (!isfinite(centres[j].x) || !isfinite(centres[j].y) || !isfinite(centres[j].z))
+        if (!mote_is_finite(centres[j]))
             return mote_fail(MOTE_EINVAL, "centre %u is not finite", j);
     }
     return MOTE_OK;

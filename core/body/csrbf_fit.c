@@ -81,7 +81,7 @@ mote_status mote_csrbf_fit_solve(const mote_csrbf_fit *fit, const mote_vec3 *dis
     const size_t count = fit->count;
     for (size_t i = 0; i < count; ++i) {
         const mote_vec3 d = displacements[i];
-        if (!isfinite(d.x) || !isfinite(d.y) || !isfinite(d.z))
+        if (!mote_is_finite(d))
             return mote_fail(MOTE_EINVAL, "the displacement of control point %zu is not finite",
                              i);
     }

@@ -122,7 +122,7 @@ static mote_status check_input(const mote_vec3 *modes, uint32_t count, uint32_t 
         return mote_fail(MOTE_EINVAL, "a field has 1 to %d linear modes, not %u",
                          MOTE_FIELD_MAX / 3, count);
     for (size_t i = 0; i < (size_t)count * vertex_count; ++i) {
-        if (!isfinite(modes[i].x) || !isfinite(modes[i].y) || !isfinite(modes[i].z))
+        if (!mote_is_finite(modes[i]))
             return mote_fail(MOTE_EINVAL, "mode %zu is not finite at vertex %zu",
                              i / vertex_count, i % vertex_count);
     }

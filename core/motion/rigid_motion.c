@@ -89,9 +89,8 @@ static mote_quaternion turn_of_step(const mote_mass *mass, mote_vec3 momentum, d
 static bool is_finite(const mote_rigid_state *state)
 {
     const mote_quaternion q = state->turn;
-    const mote_vec3 c = state->centre, v = state->velocity;
-    return isfinite(0 * (q.w + q.x + q.y + q.z) + 0 * (c.x + c.y + c.z) +
-                    0 * (v.x + v.y + v.z));
+    return isfinite(q.w) && mote_is_finite(mote_vec3_make(q.x, q.y, q.z)) &&
+           mote_is_finite(state->centre) && mote_is_finite(state->velocity);
 }
 
 mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double step,

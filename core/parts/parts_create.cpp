@@ -246,7 +246,7 @@ extern "C" mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 
         positions = mesh->positions;
     for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
         mote_vec3 v = positions[i];
-        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        if (!mote_is_finite(v))
             return mote_fail(MOTE_EINVAL, "vertex %u is (%g, %g, %g); it must be finite", i,
                              v.x, v.y, v.z);
     }

@@ -18,7 +18,7 @@ static mote_status check_target(const mote_mesh *mesh, const mote_morph_targets 
                              "morph target %u moves vertex %u of %u, counted from 0", k, v,
                              mesh->vertex_count);
         const mote_vec3 d = targets->move[i];
-        if (!isfinite(0 * d.x + 0 * d.y + 0 * d.z))
+        if (!mote_is_finite(d))
             return mote_fail(MOTE_EINVAL,
                              "morph target %u moves vertex %u by (%g, %g, %g); it must be "
                              "finite",

@@ -83,11 +83,6 @@ static mote_status work(void *context, int output)
     return mote_child_put(output, &told, sizeof told);
 }
 
-static bool is_finite(mote_vec3 v)
-{
-    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
-}
-
 /* The error that rounding of the input explains, relative to L. */
 static double excuse(const mote_extreme *e, const mote_extreme_said *said)
 {
@@ -176,7 +171,7 @@ mote_extreme_verdict mote_extreme_judge(const mote_extreme *e, uint32_t frame,
     if ((answer->has_distance && !isfinite(answer->distance)) ||
         (answer->has_lower && !isfinite(answer->lower)) ||
         (answer->has_witness &&
-         !(is_finite(answer->witness[0]) && is_finite(answer->witness[1])))) {
+         !(mote_is_finite(answer->witness[0]) && mote_is_finite(answer->witness[1])))) {
         (void)snprintf(reason, size, "not a finite number");
         return MOTE_EXTREME_NAN;
     }

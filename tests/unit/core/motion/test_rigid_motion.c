@@ -176,6 +176,16 @@ TEST(rigid_step_bad_step_refused)
     }
 }
 
+TEST(rigid_step_coordinates_whose_sum_is_not_finite_are_kept)
+{
+    const mote_mass mass = top_of(1, 2, 2.5);
+    mote_rigid_state s = {.turn = {1, 0, 0, 0},
+                          .centre = {1e308, 1e308, 1e308},
+                          .velocity = {8e307, 8e307, 8e307}};
+    assert_int_equal(mote_rigid_step(&mass, nothing, 0.01, &s), MOTE_OK);
+    assert_close(s.centre.z / 1e308, 1.008, 1e-12);
+}
+
 /* Any finite step is answered with finite numbers, or refused with the state as it was. */
 TEST(rigid_step_enormous_steps_leave_the_state_finite)
 {
