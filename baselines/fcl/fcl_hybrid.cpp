@@ -2,6 +2,7 @@
    makes the answer exact (paper section 6: combining with existing techniques). Boxes are
    refitted bottom-up; the particles read the vertices that the refit needs anyway. */
 #include "baselines/fcl/fcl_aabb.hpp"
+#include "core/particle/particles.h"
 
 #include <cstdio>
 
@@ -64,17 +65,14 @@ mote_traits traits(const double *values)
     return traits;
 }
 
-/* The number asked for, or one for each component if that is more and each body has as many
-   vertices; otherwise the particles say which body has too many components. */
 uint32_t count_of(const mote_setup *setup)
 {
     const mote_mesh *a = setup->body[0]->mesh, *b = setup->body[1]->mesh;
     const double asked = setup->values[HYBRID_N];
-    const uint32_t vertices = std::min(a->vertex_count, b->vertex_count);
-    const uint32_t components = std::max(a->component_count, b->component_count);
-    const uint32_t count =
-        asked == MOTE_AUTO ? std::min(DEFAULT_COUNT, vertices) : static_cast<uint32_t>(asked);
-    return components <= vertices ? std::max(count, components) : count;
+    const uint32_t n = asked == MOTE_AUTO
+                           ? std::min({DEFAULT_COUNT, a->vertex_count, b->vertex_count})
+                           : static_cast<uint32_t>(asked);
+    return mote_particles_at_least(n, a, b);
 }
 
 mote_status create_particles(const mote_setup *setup, Hybrid *hybrid)

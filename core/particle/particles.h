@@ -33,6 +33,19 @@ typedef struct mote_particles_options {
  */
 mote_particles_options mote_default_particles_options(void);
 
+/* n, or one particle for each connected component if that is more and each body has as many
+   vertices. Otherwise n stays, and mote_particles_create says which body has too many
+   components. */
+static inline uint32_t mote_particles_at_least(uint32_t n, const mote_mesh *a,
+                                               const mote_mesh *b)
+{
+    const uint32_t vertices =
+        a->vertex_count < b->vertex_count ? a->vertex_count : b->vertex_count;
+    const uint32_t components =
+        a->component_count > b->component_count ? a->component_count : b->component_count;
+    return components > n && components <= vertices ? components : n;
+}
+
 typedef struct mote_particles mote_particles;
 
 /* Places the particles. bodies and what they point to are borrowed; length is L of the pair.

@@ -122,24 +122,12 @@ static mote_status make_body(mote_tracker *t, int b, const mote_body *body)
     return status;
 }
 
-/* The number asked for, or one for each component if that is more and each body has as many
-   vertices; otherwise the particles say which body has too many components. */
-static uint32_t particle_count(const mote_tracker *t)
-{
-    const mote_mesh *a = t->body[0].mesh, *b = t->body[1].mesh;
-    const uint32_t vertices =
-        a->vertex_count < b->vertex_count ? a->vertex_count : b->vertex_count;
-    const uint32_t components =
-        a->component_count > b->component_count ? a->component_count : b->component_count;
-    const bool raise = components <= vertices && components > t->options.count;
-    return raise ? components : t->options.count;
-}
-
 /* With forces, the tracker uses the particles' positions as its own. */
 static mote_status make_particles(mote_tracker *t, const mote_body *const bodies[2])
 {
     mote_particles_options options = mote_default_particles_options();
-    options.count = particle_count(t);
+    options.count =
+        mote_particles_at_least(t->options.count, t->body[0].mesh, t->body[1].mesh);
     options.nmin = options.count / FORCE_REST;
     options.nmax = FORCE_STEPS;
     options.coherent = !t->options.reseed;
