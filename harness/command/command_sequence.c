@@ -44,8 +44,7 @@ static mote_status write_frames(const request *wish, const mote_mesh *mesh, void
     mote_status status = put(file, header, sizeof header, path);
     for (uint64_t k = 0; k < wish->frames && status == MOTE_OK; ++k) {
         if (mote_child_stop_asked()) {
-            status = mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
-                               path);
+            status = mote_child_stopped(path);
             break;
         }
         if (k > 0)

@@ -3,8 +3,8 @@
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
-#include "harness/process/stop.h"
 #include "harness/process/gnuplot.h"
+#include "harness/process/stop.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -231,8 +231,7 @@ mote_status mote_film_watch(void *film, const mote_simulation_view *view)
 {
     mote_film *f = film;
     if (mote_child_stop_asked())
-        return mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
-                         f->path);
+        return mote_child_stopped(f->path);
     const bool begins = view->contact && !f->contact;
     f->contact = view->contact;
     if ((view->step % f->every != 0 && !begins) || f->pictures == 2 * MOTE_FILM_PICTURES)

@@ -234,7 +234,7 @@ mote_status mote_child_look(mote_child *children, size_t count, size_t *index, b
     int ready = poll(watch, count, patience_ms(children, count));
     if (mote_child_stop_asked()) {
         mote_child_stop(children, count);
-        return mote_fail(MOTE_EIO, "stopped by a signal; run the same command again to go on");
+        return mote_child_stopped(NULL);
     }
     for (size_t i = 0; i < count; ++i) {
         mote_child_end end = MOTE_CHILD_RUNNING;

@@ -29,3 +29,10 @@ int mote_child_stop_signal(void)
 {
     return stop_signal;
 }
+
+mote_status mote_child_stopped(const char *path)
+{
+    static const char said[] = "stopped by a signal; run the same command again";
+    return path ? mote_fail(MOTE_EIO, "%s: %s", path, said)
+                : mote_fail(MOTE_EIO, "%s to go on", said);
+}

@@ -143,8 +143,7 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
         status = mote_spawn(argv, NULL, NULL, 0);
     }
     if (mote_child_stop_asked())
-        status = mote_fail(MOTE_EIO, "%s: stopped by a signal; run the same command again",
-                           directory);
+        status = mote_child_stopped(directory);
     if (status == MOTE_OK)
         status = read_totals(out, count);
     (void)unlink(out);

@@ -75,7 +75,7 @@ static mote_status load_subjects(run *r)
     r->subjects = mote_allocate(count, sizeof *r->subjects);
     for (size_t i = 0; i < count; ++i) {
         if (mote_child_stop_asked())
-            return mote_fail(MOTE_EIO, "stopped by a signal");
+            return mote_child_stopped(NULL);
         mote_status status = mote_subject_open(r->options->scenarios[i], &r->subjects[i]);
         if (status == MOTE_OK)
             status = ask_impacts(&r->options->plan, &r->subjects[i]);

@@ -184,8 +184,7 @@ static mote_status wait_for(mote_sequence_reader *r, reply *said)
         struct pollfd watch = {.fd = r->socket, .events = POLLIN};
         const int ready = poll(&watch, 1, POLL_MS);
         if (mote_child_stop_asked())
-            return mote_fail(MOTE_EIO,
-                             "stopped by a signal; run the same command again to go on");
+            return mote_child_stopped(NULL);
         if (ready <= 0)
             continue;
         const ssize_t got = recv(r->socket, said, sizeof *said, 0);
