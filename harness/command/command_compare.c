@@ -1,8 +1,8 @@
 /* mote compare BASE NEW: is one run better or worse than another? */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
-#include "harness/compare/compare.h"
 #include "harness/base/record.h"
+#include "harness/compare/compare.h"
 
 #include <math.h>
 #include <stdio.h>

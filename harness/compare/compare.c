@@ -2,8 +2,8 @@
 
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
-#include "harness/summary/column.h"
 #include "harness/compare/compared_run.h"
+#include "harness/summary/column.h"
 #include "harness/summary/scene_contacts.h"
 
 #include <stdlib.h>

@@ -13,11 +13,6 @@ static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
 #define TENS_MAX 22
 #define EXACT_MAX ((uint64_t)1 << 53)
 
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
 /* If the digits make an integer below 2^53 and the power of ten is exact, one multiplication or
    division rounds as strtod does. */
 double mote_mesh_number(const char *at, const char **end)
@@ -25,17 +20,17 @@ double mote_mesh_number(const char *at, const char **end)
     const char *p = at + (*at == '-' || *at == '+');
     uint64_t digits = 0;
     int count = 0, power = 0;
-    for (; is_digit(*p) && count < 18; ++p, ++count)
+    for (; mote_is_digit(*p) && count < 18; ++p, ++count)
         digits = 10 * digits + (uint64_t)(*p - '0');
     if (*p == '.') {
-        for (++p; is_digit(*p) && count < 18; ++p, ++count, --power)
+        for (++p; mote_is_digit(*p) && count < 18; ++p, ++count, --power)
             digits = 10 * digits + (uint64_t)(*p - '0');
     }
     if (count > 0 && (*p == 'e' || *p == 'E') &&
-        (is_digit(p[1]) || ((p[1] == '-' || p[1] == '+') && is_digit(p[2])))) {
+        (mote_is_digit(p[1]) || ((p[1] == '-' || p[1] == '+') && mote_is_digit(p[2])))) {
         const bool negative = p[1] == '-';
         int exponent = 0;
-        for (p += is_digit(p[1]) ? 1 : 2; is_digit(*p) && exponent < 1000; ++p)
+        for (p += mote_is_digit(p[1]) ? 1 : 2; mote_is_digit(*p) && exponent < 1000; ++p)
             exponent = 10 * exponent + (*p - '0');
         power += negative ? -exponent : exponent;
     }

@@ -19,6 +19,11 @@ static inline bool mote_is_blank(char c)
     return c == ' ' || c == '\t';
 }
 
+static inline bool mote_is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
 /* The end of a line, or a comment. */
 static inline bool mote_is_end(char c)
 {

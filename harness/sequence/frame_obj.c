@@ -7,11 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
 static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_frame_file *file)
 {
     double xyz[3];
@@ -46,7 +41,7 @@ static const char *read_corner(mote_mesh_reader *reader, const char *at, size_t 
     const char *p = at + (negative || *at == '+');
     uint64_t number = 0;
     *index = UINT64_MAX;
-    for (; is_digit(*p) && number < UINT32_MAX; ++p)
+    for (; mote_is_digit(*p) && number < UINT32_MAX; ++p)
         number = 10 * number + (uint64_t)(*p - '0');
     if (number >= 1 && number <= count && (mote_mesh_word_ends(reader, p) || *p == '/'))
         *index = negative ? count - number : number - 1;

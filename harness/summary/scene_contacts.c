@@ -114,8 +114,7 @@ static uint32_t reference_rank(const mote_summary_row *row)
    contacts are compared as far as both have got. */
 static bool asks_the_same(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return mote_summary_by_scene(a, b) == 0 && a->frame_range[0] == b->frame_range[0] &&
-           a->frame_range[1] == b->frame_range[1];
+    return mote_summary_by_scene(a, b) == 0 && mote_summary_by_asked_frames(a, b) == 0;
 }
 
 static const mote_summary_row *find_reference(const mote_summary_row *rows, size_t count,

@@ -356,13 +356,18 @@ int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
     return order ? order : by_number(a->tolerance, b->tolerance);
 }
 
+int mote_summary_by_asked_frames(const mote_summary_row *a, const mote_summary_row *b)
+{
+    const int order =
+        (a->frame_range[0] > b->frame_range[0]) - (a->frame_range[0] < b->frame_range[0]);
+    return order ? order
+                 : (a->frame_range[1] < b->frame_range[1]) -
+                       (a->frame_range[1] > b->frame_range[1]);
+}
+
 int mote_summary_by_frames(const mote_summary_row *a, const mote_summary_row *b)
 {
-    int order =
-        (a->frame_range[0] > b->frame_range[0]) - (a->frame_range[0] < b->frame_range[0]);
-    if (order == 0)
-        order =
-            (a->frame_range[1] < b->frame_range[1]) - (a->frame_range[1] > b->frame_range[1]);
+    int order = mote_summary_by_asked_frames(a, b);
     if (order == 0 && a->bodies > 0 && b->bodies > 0)
         order = (a->frames < b->frames) - (a->frames > b->frames);
     return order;

@@ -187,8 +187,11 @@ int mote_summary_by_interval(const mote_summary_row *a, const mote_summary_row *
    one machine. Different scenes are never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);
 
-/* The order of rows by the frames requested: earlier start first, then longer. Of many bodies
-   then by the frames measured, more first, since the budget may have ended a cell early. */
+/* The order of rows by the frames requested: earlier start first, then longer. */
+int mote_summary_by_asked_frames(const mote_summary_row *a, const mote_summary_row *b);
+
+/* The same, of many bodies then by the frames measured, more first, since the budget may have
+   ended a cell early. */
 int mote_summary_by_frames(const mote_summary_row *a, const mote_summary_row *b);
 
 /* Whether two rows are in one block: the same frames and question, on one machine. */

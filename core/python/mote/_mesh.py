@@ -164,8 +164,8 @@ class Field(_Shared):
         phi(|x - c| / support) w_c, where phi(r) = (1 - r)^4 (4 r + 1) for r < 1, else 0.
 
         centres: float64 (n, 3), 1 to 65,528 of them, in the mesh's axes at rest. support: a
-        length, above 5.6e-309. Fits any mesh. A frame's weights: float64 (n, 3), lengths, in the mesh's axes, so
-        that they turn with the body's pose.
+        length, above 5.6e-309. Fits any mesh. A frame's weights: float64 (n, 3), lengths, in the
+        mesh's axes, so that they turn with the body's pose.
         """
         points = numbers("centres", centres, (ANY, 3))
         radius = real("support", support)
@@ -205,8 +205,9 @@ class Field(_Shared):
         targets, a tuple of that and an array (targets,); either may be None, for rest.
 
         The body is the one with the weights that are kept: multiples of 2^-24 that add up to 1 at
-        each vertex. Distances are exact, and bounds proven, for that body. By the formula a vertex of
-        k bones is elsewhere, by less than k 2^-24 of the largest distance between its images M_b x_i.
+        each vertex. Distances are exact, and bounds proven, for that body. By the formula a vertex
+        of k bones is elsewhere, by less than k 2^-24 of the largest distance between its images
+        M_b x_i.
         """
         owner = mesh_of("mesh", mesh)
         start, bone, weight, count = _influences(owner.vertex_count, weights, bones, bone_count)
