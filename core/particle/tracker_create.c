@@ -126,8 +126,7 @@ static mote_status make_body(mote_tracker *t, int b, const mote_body *body)
 static mote_status make_particles(mote_tracker *t, const mote_body *const bodies[2])
 {
     mote_particles_options options = mote_default_particles_options();
-    options.count =
-        mote_particles_at_least(t->options.count, t->body[0].mesh, t->body[1].mesh);
+    options.count = mote_particles_at_least(t->options.count, t->body[0].mesh, t->body[1].mesh);
     options.nmin = options.count / FORCE_REST;
     options.nmax = FORCE_STEPS;
     options.coherent = !t->options.reseed;
