@@ -88,8 +88,8 @@ quick)
     ;;
 paper)
     measure ww tt mv --replicates 5 --method 'fcl-aabb:seed=none|previous,queue=2|64' \
-        --method fcl-obb --method fcl-obbrss --method aabb-tree --method hybrid-fcl:n=8 \
-        --method ccd-convex --method certified --method particle \
+        --method 'fcl-obb:update=refit-top-down|refit-bottom-up' --method fcl-obbrss \
+        --method aabb-tree --method hybrid-fcl:n=8 --method ccd-convex --method certified --method particle \
         --method 'particle-paper:refine=no|near|always' --particles 1,2,3,5,8,16,32,64
     measure ww mv --replicates 5 --method particle-paper:positions=given --particles 5,8
     measure ww mv --replicates 5 --method particle:n=8,positions=given \
@@ -105,8 +105,8 @@ paper)
     ;;
 full)
     measure ww tt mv --replicates 10 --method 'fcl-aabb:seed=none|previous,queue=2|64' \
-        --method fcl-obb --method fcl-obbrss --method aabb-tree --method certified \
-        --method particle --method 'particle-paper:refine=no|near|always,start=random|fps' \
+        --method 'fcl-obb:update=refit-top-down|refit-bottom-up' --method fcl-obbrss \
+        --method aabb-tree --method certified --method particle --method 'particle-paper:refine=no|near|always,start=random|fps' \
         --particles 1-8,12,16,24,32,48,64
     measure tt --replicates 10 --method fcl-obb:update=none --method fcl-obbrss:update=none
     for scenario in ww tt mv ww-contact mv-contact tt-distance; do

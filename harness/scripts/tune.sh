@@ -41,7 +41,8 @@ for scenario in ww tt mv; do
         --method 'ccd-convex:support=climb|scan' \
         --method 'particle-paper:refine=no|near|always,start=random|fps' --particles 3,5,8,16
     for volume in obb rss obbrss kios; do
-        measure "$@" --method "fcl-$volume:queue=2|64" --method "fcl-$volume:update=rebuild"
+        measure "$@" --method "fcl-$volume:update=refit-top-down|refit-bottom-up,queue=2|64" \
+            --method "fcl-$volume:update=rebuild"
         if [ $volume != obb ]; then
             measure "$@" --method "fcl-$volume:call=api"
         fi

@@ -4,6 +4,7 @@ import json
 from tables.records import file_of
 
 CLAIMS = "claims/claims.json"
+REQUIREMENTS = "claims/requirements.json"
 
 
 def unit_of(value):
@@ -40,3 +41,10 @@ def claims_table(root):
     for claim in json.loads(file_of(root, CLAIMS).read_text()):
         values = "; ".join(measured(value) for value in claim["values"] if value["threshold"])
         yield f"| {claim['id']}. {claim['claim']} | {claim['section']} | {claim['verdict']} | {values} |"
+
+
+def near_contact(root, requirement, scenario):
+    """The median of the best engine of others over that of the certified query, in the frames near contact of
+    requirement r6 (distances) or r7 (contacts)."""
+    asked = next(claim for claim in json.loads(file_of(root, REQUIREMENTS).read_text()) if claim["id"] == requirement)
+    return next(value["value"] for value in asked["values"] if value["name"].strip().startswith(f"{scenario}, median: "))

@@ -59,6 +59,18 @@ def fcl_to_paper(root, scenario, cache):
     return float(row["ratio"])
 
 
+def best_fcl_to_default(root, scenario):
+    """The part of the time of FCL with its defaults that the fastest of FCL's settings takes, frame by frame."""
+    return 1 / max(float(row["ratio"]) for (name, label), row in pairs(root).items()
+                   if name == scenario and label.startswith("fcl-"))
+
+
+def worst_from_random_starts(root, scenario, n):
+    """The largest error of the paper's method with n particles, missed contacts, and all contacts."""
+    row = pairs(root)[scenario, f"particle-paper:n={n}"]
+    return float(row["error_max"]), float(row["missed"]), float(row["contacts"])
+
+
 def tail(root, scenario):
     """The 95th percentile of the certified query over its median."""
     row = pairs(root)[scenario, "certified"]
