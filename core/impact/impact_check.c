@@ -55,7 +55,7 @@ static mote_status check_turn(const mote_path_piece *piece, int body, uint32_t k
         const mote_quaternion q = piece->turn[i];
         most = fmax(most, sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z));
     }
-    if (!(mote_path_least_turn(piece) >= LEAST_TURN * most && most < 1e100))
+    if (!(mote_path_least_turn(piece) >= LEAST_TURN * most && most > 1e-100 && most < 1e100))
         return mote_fail(MOTE_EINVAL,
                          "the quaternions of piece %u of body %d's path may pass near 0; give "
                          "finite ones that turn by less than half a turn, or a spin",

@@ -1,8 +1,13 @@
+#include "core/body/field_kinds.h"
 #include "core/certificate/certificate_state.h"
 #include "core/impact/impact_state.h"
 #include "core/skin/skin.h"
 
 #include <stdlib.h>
+
+/* Bounds of speeds square the weights of modes, which are pure numbers, before they multiply
+   them by how far a mode moves vertices: at most so many times L, and at least L over that. */
+#define MODE_MOST 1e100
 
 mote_impact_options mote_default_impact_options(double length)
 {
@@ -57,6 +62,21 @@ static mote_status allocate(mote_impact_search *s)
     return MOTE_OK;
 }
 
+static mote_status check_modes(const mote_field *field, int body, double length)
+{
+    const double *largest = mote_modes_largest(field);
+    for (size_t m = 0; largest && m < field->count / 3; ++m) {
+        if (largest[m] > 0 &&
+            !(largest[m] >= length / MODE_MOST && largest[m] / MODE_MOST <= length))
+            return mote_fail(
+                MOTE_EINVAL,
+                "mode %zu of body %d moves a vertex by %g, where L is %g; scale the "
+                "mode and its weights",
+                m, body, largest[m], length);
+    }
+    return MOTE_OK;
+}
+
 /* The body that the certificate is to know: of a body of which only positions are given, one
    with a field of them. */
 static mote_status take_body(mote_impact_search *s, int i, const mote_body *body)
@@ -69,7 +89,7 @@ static mote_status take_body(mote_impact_search *s, int i, const mote_body *body
                          "of its vertices is not known",
                          field->kind->name);
     if (!mote_body_is_given(body))
-        return MOTE_OK;
+        return check_modes(field, i, s->options.length);
     const mote_status status = mote_lines_create(&s->own_field[i]);
     if (status != MOTE_OK)
         return status;

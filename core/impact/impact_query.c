@@ -13,6 +13,25 @@
 
 #include <string.h>
 
+/* A direction counts where so much of the distance is proven. */
+#define NORMAL_PART 0.9
+
+/* The direction between the witnesses. Far from the world's origin these are rounded by more
+   than bodies that nearly touch are apart. What is proven of the distance then falls short of
+   it, and the direction of an earlier look is kept. Of a first look any direction does. */
+static void set_normal(mote_impact_search *s)
+{
+    const bool first = !(mote_length_squared(s->found.normal) > 0);
+    if (!(s->at.distance > 0) || (!first && s->at.lower < NORMAL_PART * s->at.distance))
+        return;
+    const mote_vec3 n = mote_sub(s->at.witness[1], s->at.witness[0]);
+    const double inverse = 1 / mote_length(n);
+    if (inverse < HUGE_VAL)
+        s->found.normal = mote_scale(n, inverse);
+    else if (first)
+        s->found.normal = mote_vec3_make(1, 0, 0);
+}
+
 /* Makes a certified query at a time; false where the bodies are apart by more than the
    tolerance. */
 static bool touch_at(mote_impact_search *s, double time)
@@ -28,10 +47,7 @@ static bool touch_at(mote_impact_search *s, double time)
     MOTE_COUNTERS(ADD)
     MOTE_COUNTERS_MORE(ADD)
 #undef ADD
-    if (s->at.distance > 0) {
-        const mote_vec3 n = mote_sub(s->at.witness[1], s->at.witness[0]);
-        s->found.normal = mote_scale(n, 1 / mote_length(n));
-    }
+    set_normal(s);
     return s->at.distance <= q->tolerance;
 }
 

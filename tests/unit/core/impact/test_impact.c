@@ -254,7 +254,8 @@ TEST(mote_impact_query_bad_pieces_are_refused)
     check_refused(&s, &good, "pass near 0");
     p->turn[2].w = NAN;
     check_refused(&s, &good, "pass near 0");
-    static const double lengths[] = {0, 1e150, 1e160}; /* squares of the last are infinite */
+    static const double lengths[] = {0, 1e-160, 1e150, 1e160}; /* squares of the
+                                                                  last are infinite */
     for (size_t i = 0; i < ROWS_OF(lengths); ++i) {
         for (int k = 0; k < 4; ++k)
             p->turn[k].w = lengths[i];
@@ -310,6 +311,35 @@ TEST(mote_impact_create_refuses_what_it_cannot_answer)
     const mote_body *const bending[2] = {bodies[0], &rod};
     assert_int_equal(mote_impact_create(bending, &options, &made), MOTE_EUNSUPPORTED);
     assert_null(made);
+    impact_scene_free(&s);
+}
+
+/* Their weights, pure numbers, are squared: those of such modes leave the range of doubles. */
+TEST(mote_impact_create_modes_that_move_far_beyond_or_below_the_bodies_are_refused)
+{
+    static const struct {
+        double size;
+        mote_status status;
+    } rows[] = {{0, MOTE_OK},          {1e-99, MOTE_OK},     {1e99, MOTE_OK},
+                {1e-101, MOTE_EINVAL}, {1e101, MOTE_EINVAL}, {1e300, MOTE_EINVAL}};
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    const mote_impact_options options = mote_default_impact_options(1);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("a mode of %g", rows[i].size);
+        mote_vec3 moves[8] = {{0}};
+        moves[3].y = -rows[i].size;
+        mote_field *field = NULL;
+        assert_int_equal(mote_field_create_modes(moves, 1, 8, &field), MOTE_OK);
+        const mote_body moved = {.mesh = s.of[0].mesh, .field = field};
+        const mote_body *const bodies[2] = {&s.of[1].body, &moved};
+        mote_impact_search *made = NULL;
+        assert_int_equal(mote_impact_create(bodies, &options, &made), rows[i].status);
+        if (rows[i].status != MOTE_OK)
+            assert_non_null(strstr(mote_error_text(), "mode 0 of body 1 moves"));
+        mote_impact_destroy(made);
+        mote_field_destroy(field);
+    }
     impact_scene_free(&s);
 }
 

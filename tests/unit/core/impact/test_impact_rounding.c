@@ -54,6 +54,33 @@ TEST(mote_impact_query_head_on_is_found_however_slow_far_and_fine)
     }
 }
 
+/* Turned about an oblique axis, the gap is along no axis: far from the origin the witnesses are
+   rounded by more than the bodies are apart just before they touch. */
+TEST(mote_impact_query_normal_of_an_oblique_impact_far_away_is_a_direction)
+{
+    static const double offsets[] = {0, 1e2, 1e4, 1e6, 1e8};
+    const mote_quaternion turned =
+        mote_quaternion_normalise((mote_quaternion){0.8, 0.3, -0.2, 0.5});
+    const mote_mat3 turn = mote_quaternion_matrix(turned);
+    const mote_vec3 across = mote_rotate(&turn, mote_vec3_make(1, 0, 0));
+    for (size_t i = 0; i < 4 * ROWS_OF(offsets); ++i) {
+        const double far = offsets[i / 4], speed = pow(10, -2.0 * (double)(i % 4));
+        test_row("offset %g, speed %g", far, speed);
+        impact_scene s;
+        two_cubes(&s, mote_scale(across, 1 + 0.375 * speed),
+                  mote_scale(across, 1 - 0.625 * speed), mote_vec3_make(far, far, far));
+        for (int b = 0; b < 2; ++b) {
+            for (int k = 0; k < 4; ++k)
+                s.of[b].piece[0].turn[k] = turned;
+        }
+        const mote_impact_found found = impact_ask(&s, impact_question(&s, 0));
+        assert_int_equal(found.outcome, MOTE_IMPACT_FOUND);
+        assert_true(fabs(mote_length(found.normal) - 1) < 1e-12);
+        assert_true(mote_dot(found.normal, across) > 0.99);
+        impact_scene_free(&s);
+    }
+}
+
 /* Both spin fast, so that bounds of speeds are far above the speed at which the gap closes. */
 TEST(mote_impact_query_slow_approach_of_spinning_bodies_is_found)
 {
