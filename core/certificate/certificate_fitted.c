@@ -78,8 +78,10 @@ static void set_margins(mote_cert_side *side, mote_vec3 field)
 {
     const mote_cert_tree *tree = side->tree;
     const uint32_t functions = tree->body->field->most;
+    /* A function that reaches no box has its say here alone, also where its weight is NaN. */
+    const double finite = 0 * field.x + 0 * field.y + 0 * field.z;
     side->bound = mote_largest_coordinate(side->exact_translation) + tree->radius +
-                  mote_largest_coordinate(field);
+                  mote_largest_coordinate(field) + finite;
     side->noise = 0x1p-48 * side->bound * (functions > 256 ? functions / 256.0 : 1);
     side->exact = 0x1p-50 * (functions + 4) * (side->world + side->bound);
     side->margin_unit = rounded_up(2 * FLOAT_ROUNDING * side->bound);

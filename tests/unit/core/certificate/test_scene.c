@@ -97,6 +97,38 @@ TEST(mote_scene_bounds_not_finite_names_the_body)
     crowd_close(&c, scene);
 }
 
+/* A function whose centre is far from the mesh moves no vertex, and is in no box of the tree.
+ */
+TEST(mote_scene_bounds_not_finite_weight_of_a_function_that_reaches_nothing)
+{
+    static const double bad[] = {NAN, HUGE_VAL, -HUGE_VAL};
+    const mote_vec3 centres[2] = {{0, 0, 1}, {100, 0, 0}};
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_csrbf(centres, 2, 2, &field), MOTE_OK);
+    const mote_body body = {.mesh = mesh, .field = field};
+    const mote_body *shapes[1] = {&body};
+    const uint32_t shape_of[2] = {0, 0};
+    const mote_scene_options options = mote_default_scene_options();
+    mote_scene *scene = NULL;
+    assert_int_equal(mote_scene_create(shapes, 1, shape_of, 2, &options, &scene), MOTE_OK);
+    double weights[3][8] = {{0}};
+    const mote_body_state rest = {
+        .pose = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}},
+        .weights = {weights[0], weights[1], weights[2], field->count, field->padded}};
+    const mote_body_state states[2] = {rest, rest};
+    mote_scene_box boxes[2];
+    assert_int_equal(mote_scene_bounds(scene, states, boxes), MOTE_OK);
+    for (size_t i = 0; i < 3 * ROWS_OF(bad); ++i) {
+        weights[i % 3][1] = bad[i / 3];
+        assert_int_equal(mote_scene_bounds(scene, states, boxes), MOTE_EINVAL);
+        weights[i % 3][1] = 0;
+    }
+    mote_scene_destroy(scene);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
 TEST(mote_scene_query_all_pairs_equals_brute_force)
 {
     static crowd c;
