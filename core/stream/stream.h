@@ -50,7 +50,8 @@ size_t mote_stream_bytes(const mote_stream *stream);
 /* Where the vertices of both bodies are, in the same axes. */
 typedef struct mote_stream_frame {
     mote_positions positions[2]; /* of as many vertices as the meshes have */
-    bool unchanged[2];           /* the same numbers as in the frame before; spares the pass */
+    bool unchanged[2];           /* the same numbers as in the frame before, which may have been
+                                    refused; spares the pass */
 } mote_stream_frame;
 
 /* Answers one frame. enough: a contact question's tolerance, so that the query ends when

@@ -110,13 +110,22 @@ size_t mote_stream_bytes(const mote_stream *stream)
     return bytes;
 }
 
+/* After a frame that was refused, an unchanged one has the positions of that frame. */
+static void forget_boxes(mote_stream *stream)
+{
+    for (int b = 0; b < 2; ++b)
+        stream->body[b].placed = stream->body[b].checked = false;
+}
+
 /* Sets a frame's positions; boxes that were made for other positions are then invalid. */
 static mote_status set_positions(mote_stream *stream, const mote_stream_frame *frame)
 {
     for (int b = 0; b < 2; ++b) {
         mote_status status = mote_stream_check(&frame->positions[b], b);
-        if (status != MOTE_OK)
+        if (status != MOTE_OK) {
+            forget_boxes(stream);
             return status;
+        }
     }
     for (int b = 0; b < 2; ++b) {
         mote_stream_body *body = &stream->body[b];

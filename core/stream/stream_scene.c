@@ -158,13 +158,22 @@ static void bound_range(void *context, uint32_t worker, size_t first, size_t end
     }
 }
 
+/* After a frame that was refused, an unchanged one has the positions of that frame. */
+static void forget_boxes(mote_stream_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->body_count; ++i)
+        scene->bodies[i].placed = scene->bodies[i].checked = false;
+}
+
 mote_status mote_stream_scene_bounds(mote_stream_scene *scene, const mote_positions *positions,
                                      const bool *unchanged, mote_scene_box *bounds)
 {
     for (uint32_t i = 0; i < scene->body_count; ++i) {
         mote_status status = mote_stream_check(&positions[i], (int)i);
-        if (status != MOTE_OK)
+        if (status != MOTE_OK) {
+            forget_boxes(scene);
             return status;
+        }
     }
     for (uint32_t i = 0; i < scene->body_count; ++i) {
         mote_stream_body *body = &scene->bodies[i];

@@ -390,6 +390,30 @@ TEST(query_unchanged_body_gives_the_same_answers)
     scene_free(&s);
 }
 
+/* A body is where a refused frame had it. */
+TEST(query_unchanged_after_a_refused_frame_has_the_positions_of_that_frame)
+{
+    scene s;
+    scene_init(&s, 25, 11, 1, true);
+    mote_stream *stream = stream_of(&s, NULL);
+    for (int k = 0; k < 200; ++k) {
+        scene_next(&s, 1.6, false);
+        mote_stream_frame frame = positions_of(&s);
+        stream_answer(stream, &frame, -1);
+        scene_next(&s, 1.6, false);
+        frame = positions_of(&s);
+        mote_stream_frame wrong = frame;
+        wrong.positions[1].stride = 1;
+        mote_certificate_answer none;
+        assert_int_equal(mote_stream_query(stream, &wrong, -1, &none), MOTE_EINVAL);
+        frame.unchanged[0] = true;
+        const mote_certificate_answer a = stream_answer(stream, &frame, -1);
+        assert_true(fabs(a.distance - scene_truth(&s)) <= 1e-12 * s.length);
+    }
+    mote_stream_destroy(stream);
+    scene_free(&s);
+}
+
 TEST(query_any_number_of_threads_gives_the_same_bits)
 {
     static const uint32_t threads[] = {1, 2, 3, 7};
