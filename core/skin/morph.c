@@ -41,17 +41,20 @@ mote_status mote_morph_check(const mote_mesh *mesh, const mote_morph_targets *ta
     return status;
 }
 
+/* 0 for a target that moves nothing. */
 static double size_of(const mote_morph_targets *targets, uint32_t k)
 {
     double most = 0;
     for (uint32_t i = targets->start[k]; i < targets->start[k + 1]; ++i)
         most = fmax(most, mote_largest_coordinate(targets->move[i]));
-    return most > 0 ? ldexp(1, ilogb(most)) : 1;
+    return most > 0 ? ldexp(1, ilogb(most)) : 0;
 }
 
 /* A displacement as it is kept; false where all of it is 0. */
 static bool rounded(mote_vec3 d, double size, float move[3])
 {
+    if (!(size > 0))
+        return false;
     move[0] = (float)(d.x / size);
     move[1] = (float)(d.y / size);
     move[2] = (float)(d.z / size);

@@ -8,6 +8,8 @@ import sys
 import tempfile
 import threading
 import unittest
+import unittest.mock
+import weakref
 
 import numpy as np
 
@@ -185,6 +187,25 @@ print("parent and child done")
                 env={**os.environ, "MOTE_LIBRARY": os.path.join(folder, "none.so")},
             )
             self.assertIn("name its file in MOTE_LIBRARY", answer.stderr)
+
+    def test_a_mesh_that_another_thread_closes_during_a_call_lives_until_it_ends(self):
+        from mote._mesh import lib
+
+        for name, call in (
+            ("create", lambda mesh: mote.Field.morph(mesh, np.zeros((1, 6, 3)))),
+            ("mesh_bytes", lambda mesh: mesh.nbytes),
+        ):
+            mesh, inside = octahedron(), getattr(lib, name)
+            memory = weakref.ref(mesh._memory)
+
+            def closing(*arguments):
+                mesh.close()
+                self.assertIsNotNone(memory(), name)
+                return inside(*arguments)
+
+            with unittest.mock.patch.object(lib, name, closing):
+                call(mesh)
+            self.assertIsNone(memory(), name)
 
     def test_the_struct_of_a_mesh_is_the_librarys(self):
         from mote import _library

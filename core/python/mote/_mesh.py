@@ -103,7 +103,8 @@ class Mesh(_Shared):
     @property
     def nbytes(self) -> int:
         """Bytes that the library holds."""
-        return int(lib.mesh_bytes(self._need("mesh").address))
+        held = self._need("mesh")  # another thread may close the mesh
+        return int(lib.mesh_bytes(held.address))
 
     def __repr__(self) -> str:
         return f"Mesh({self._vertex_count} vertices, {self._face_count} faces)"
@@ -238,9 +239,10 @@ class Field(_Shared):
         """
         owner = mesh_of("mesh", mesh)
         given = _targets(owner.vertex_count, targets)
+        held = owner._need("mesh")  # another thread may close the mesh
         memory = lib.create(
-            "targets", lib.field_morphs, lib.field_destroy, (), owner._need("mesh").address, 0, None,
-            None, None, ctypes.addressof(given.struct),
+            "targets", lib.field_morphs, lib.field_destroy, (), held.address, 0, None, None, None,
+            ctypes.addressof(given.struct),
         )
         return cls._make("morph", memory, owner.vertex_count, None, given.count)
 

@@ -519,6 +519,25 @@ TEST(amounts_of_enormous_targets_are_refused)
     mote_mesh_destroy(mesh);
 }
 
+/* A target that moves nothing takes any amount. */
+TEST(amounts_of_targets_that_move_nothing_are_accepted)
+{
+    static const uint32_t start[2] = {0, 1}, vertex[1] = {3};
+    static const mote_vec3 move[1] = {{0, 0, 0}};
+    const mote_morph_targets targets = {1, start, vertex, move};
+    solid tiny = solid_icosphere(1);
+    for (size_t i = 0; i < 3 * tiny.vertex_count; ++i)
+        tiny.xyz[i] *= 1e-12;
+    mote_mesh *mesh = solid_to_mesh(tiny);
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const double amount = 1e6;
+    assert_true(accepts(mesh, field, NULL, &amount));
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
 /* So are weights of linear modes. A tetrahedron whose edges are `scale`, with a mode that moves
    a vertex by `scale` times `mode`. */
 TEST(weights_of_modes_are_measured_by_what_they_move)
