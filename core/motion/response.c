@@ -2,6 +2,9 @@
 
 #include <float.h>
 
+/* The square of a shorter normal would lose its digits. */
+#define LEAST_NORMAL 1e-150
+
 double mote_effective_mass(const mote_mass *mass, const mote_rigid_state *state, mote_vec3 arm,
                            mote_vec3 normal)
 {
@@ -66,7 +69,7 @@ mote_status mote_respond_deforming(const mote_mass *const mass[2], mote_vec3 poi
                                    mote_rigid_state *const state[2], mote_impact *impact)
 {
     const double length = mote_length(normal);
-    if (!(length > 0) || !isfinite(length))
+    if (!(length >= LEAST_NORMAL) || !isfinite(length))
         return mote_fail(MOTE_EINVAL, "the normal of a collision has no direction");
     if (!(restitution >= 0 && restitution <= 1))
         return mote_fail(MOTE_EINVAL, "restitution %g; give a number from 0 to 1", restitution);

@@ -47,11 +47,11 @@ typedef struct mote_impact {
 } mote_impact;
 
 /* Lets bodies 0 and 1 collide at a point (world) if they approach each other there. normal:
-   from body 0 to body 1, any length > 0. restitution e: from 0 (none of the closing speed comes
-   back) to 1 (all of it); the impulse is (1 + e) / 2 of the elastic one. MOTE_EINVAL: a normal
-   or point whose squared length is no double, a normal of squared length 0, a restitution out
-   of range. The states are then unchanged. Masses and states are not checked. No
-   allocation. */
+   from body 0 to body 1, of any length from 1e-150 on. restitution e: from 0 (none of the
+   closing speed comes back) to 1 (all of it); the impulse is (1 + e) / 2 of the elastic one.
+   MOTE_EINVAL: a normal or point whose squared length is no double, a shorter normal, a
+   restitution out of range. The states are then unchanged. Masses and states are not checked.
+   No allocation. */
 mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_vec3 normal,
                          double restitution, mote_rigid_state *const state[2],
                          mote_impact *impact);

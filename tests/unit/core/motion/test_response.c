@@ -296,8 +296,10 @@ TEST(respond_bad_input_refused)
     mote_rigid_state *states[2] = {&c.state[0], &c.state[1]};
     mote_impact impact = {.closing = -7};
     const mote_vec3 none = {0, 0, 0}, bad = {NAN, 0, 0}, endless = {0, HUGE_VAL, 0};
+    const mote_vec3 tiny = {0, 2e-162, 0}; /* its square is below the smallest normal double */
     assert_int_equal(mote_respond(mass, c.point, none, 1, states, &impact), MOTE_EINVAL);
     assert_int_equal(mote_respond(mass, c.point, bad, 1, states, &impact), MOTE_EINVAL);
+    assert_int_equal(mote_respond(mass, c.point, tiny, 1, states, &impact), MOTE_EINVAL);
     assert_int_equal(mote_respond(mass, c.point, endless, 1, states, &impact), MOTE_EINVAL);
     assert_int_equal(mote_respond(mass, bad, c.normal, 1, states, &impact), MOTE_EINVAL);
     assert_int_equal(mote_respond(mass, c.point, c.normal, 1.1, states, &impact), MOTE_EINVAL);
