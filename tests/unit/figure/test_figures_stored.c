@@ -160,6 +160,39 @@ TEST(errors_over_n_leave_out_what_was_not_answered)
     free(data);
 }
 
+/* By name, all engines that are faster than ours are before them. */
+TEST(shares_keep_the_fastest_and_ours_and_say_how_many_are_not_there)
+{
+    static const char *const shown[] = {"\n16 ",
+                                        "\"certified\"",
+                                        "\"particle:n=8\"",
+                                        "\"particle-paper:n=5\"",
+                                        "\"fcl-aabb:queue=3\"",
+                                        "\"coal-aabb:queue=11\""};
+    static const char *const note[] = {
+        " Of these 24, the fastest are shown, and always certified, particle, particle-paper "
+        "and the fastest of FCL; the other 8 are not."};
+    char parameters[40];
+    for (int k = 1; k <= 18; ++k) {
+        (void)snprintf(parameters, sizeof parameters, "{\"queue\": %d}", k);
+        put("s", "coal-aabb", parameters, 100 * k, EXACT);
+    }
+    put("s", "fcl-aabb", "{\"queue\": 3}", 6000, EXACT);
+    put("s", "fcl-aabb", "{\"queue\": 5}", 7000, EXACT);
+    put("s", "aabb-tree", "{}", 50, EXACT);
+    put("s", "certified", "{}", 8000, EXACT);
+    put("s", "particle", "{\"n\": 8}", 9000, EXACT);
+    put("s", "particle-paper", "{\"n\": 5}", 9500, EXACT);
+    mote_expect(0, "figures/shares-s.svg", "figures run");
+    char *data = file_text("run/figures/shares-s.dat"), *caption = caption_of("shares-s");
+    expect_in(data, shown, ROWS_OF(shown));
+    assert_null(strstr(data, "\n17 "));
+    assert_null(strstr(data, "fcl-aabb:queue=5"));
+    expect_in(caption, note, ROWS_OF(note));
+    free(data);
+    free(caption);
+}
+
 #define FILM                                                                                   \
     "{\"purpose\": \"letters that meet\", \"frames\": 11, \"ask\": \"distance\", "             \
     "\"tolerance\": 0.01, \"bodies\": {\"count\": 4, \"seed\": 3, \"box\": 4, \"near\": 0.2, " \
