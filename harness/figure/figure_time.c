@@ -259,10 +259,11 @@ static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *ot
     return count ? mote_statistics_median(work, count) : MOTE_NONE;
 }
 
-/* Adds one part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
-   values holds a number per replicate. */
-static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
-                      double last, double *values, double *work, mote_text *text)
+/* Adds one part's line, middle frame, ratio and its interval over replicates, which one pair of
+   processes does not have. Returns the number of pairs. values holds a number per replicate. */
+static size_t add_ratio(const mote_summary_row *row, const mote_summary_row *other,
+                        double first, double last, double *values, double *work,
+                        mote_text *text)
 {
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
@@ -273,21 +274,24 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
             values[count++] = value;
     }
     if (count == 0)
-        return;
-    const double mean = mote_statistics_mean(values, count);
-    mote_confidence interval = mote_statistics_t_interval(values, count);
-    if (interval.low != interval.low)
-        interval = (mote_confidence){mean, mean};
-    mote_text_add(text, "%.17g %.17g %.17g %.17g\n", (first + last - 1) / 2, exp(mean),
-                  exp(interval.low), exp(interval.high));
+        return 0;
+    const mote_confidence interval = mote_statistics_t_interval(values, count);
+    mote_text_add(text, "%.17g %.17g ", (first + last - 1) / 2,
+                  exp(mote_statistics_mean(values, count)));
+    if (count < 2)
+        mote_text_add(text, "nan nan\n");
+    else
+        mote_text_add(text, "%.17g %.17g\n", exp(interval.low), exp(interval.high));
+    return count;
 }
 
-/* Adds a block of parts; none if no process has a frame in common with its partner. */
-static void add_ratios(const mote_summary_row *row, const mote_summary_row *other,
-                       mote_text *text)
+/* Adds a block of parts; none if no process has a frame in common with its partner. Returns the
+   least number of pairs of processes that a part has; SIZE_MAX without a part. */
+static size_t add_ratios(const mote_summary_row *row, const mote_summary_row *other,
+                         mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
-    size_t longest = 0;
+    size_t longest = 0, least = SIZE_MAX;
     for (size_t r = 0; r < row->replicates; ++r)
         longest = row->cells[r].frames > longest ? row->cells[r].frames : longest;
     double *values = mote_allocate(row->replicates + longest, sizeof *values);
@@ -295,14 +299,18 @@ static void add_ratios(const mote_summary_row *row, const mote_summary_row *othe
     mote_text lines = {0};
     const double from = cell->frame[0];
     const double width = (cell->frame[cell->frames - 1] + 1 - from) / PARTS;
-    for (int p = 0; p < PARTS; ++p)
-        add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, &lines);
+    for (int p = 0; p < PARTS; ++p) {
+        const size_t pairs = add_ratio(row, other, from + p * width, from + (p + 1) * width,
+                                       values, work, &lines);
+        least = pairs > 0 && pairs < least ? pairs : least;
+    }
     if (lines.size > 0) {
         mote_gnuplot_block(text, row->label);
         mote_text_add(text, "%s", lines.data);
     }
     free(lines.data);
     free(values);
+    return least;
 }
 
 /* What a row is compared with: the fastest engine of others without a wrong answer, else the
@@ -312,8 +320,9 @@ static const mote_summary_row *rival_of(const mote_summary_row *row)
     return row->ratio_engine.to ? row->ratio_engine.to : row->ratio_best.to;
 }
 
-/* Adds the caption, and the best FCL as a series if it is not the best engine. */
-static void add_rivals(const mote_summary_row *row, const char *scenario, mote_figure *figure)
+/* Adds the caption, and the best FCL as a series if it is not the best engine; returns the
+   least number of pairs, as above. */
+static size_t add_rivals(const mote_summary_row *row, const char *scenario, mote_figure *figure)
 {
     const mote_summary_row *rival = rival_of(row), *fcl = row->ratio_best.to;
     mote_text_add(
@@ -325,11 +334,11 @@ static void add_rivals(const mote_summary_row *row, const char *scenario, mote_f
         rival->label,
         rival == row->ratio_engine.to ? "engine of others" : "configuration of FCL", scenario,
         strcmp(row->ask, "contact") == 0 ? ", asked for contacts" : "", PARTS);
-    if (fcl && fcl != rival) {
-        mote_text_add(&figure->caption, " The fastest configuration of FCL, %s, is shown too.",
-                      fcl->label);
-        add_ratios(fcl, rival, &figure->data);
-    }
+    if (!fcl || fcl == rival)
+        return SIZE_MAX;
+    mote_text_add(&figure->caption, " The fastest configuration of FCL, %s, is shown too.",
+                  fcl->label);
+    return add_ratios(fcl, rival, &figure->data);
 }
 
 mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
@@ -346,19 +355,21 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
             mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
         if (!row || !rival_of(row) || row->first->frames == 0)
             continue;
-        const mote_summary_row *rival = rival_of(row);
         if (!first)
             first = row;
-        least = row->finished < least ? row->finished : least;
-        add_ratios(row, rival, &figure->data);
+        const size_t pairs = add_ratios(row, rival_of(row), &figure->data);
+        least = pairs < least ? pairs : least;
     }
-    if (first)
-        add_rivals(first, scenario, figure);
+    if (first) {
+        const size_t pairs = add_rivals(first, scenario, figure);
+        least = pairs < least ? pairs : least;
+    }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
                       "a method of ours and one of others on the same frames of %s", scenario);
     else if (least < 2)
-        mote_text_add(&figure->missing, "intervals on %s, for which two replicates are needed",
+        mote_text_add(&figure->missing,
+                      "intervals on %s, for which two replicates of both methods are needed",
                       scenario);
     return MOTE_OK;
 }

@@ -281,6 +281,31 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
     mote_summary_free(&summary);
 }
 
+/* Ours has two processes, but the rival has only one: there is no interval. */
+TEST(ratios_of_one_pair_have_no_band)
+{
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("one-pair", "certified", 1, 1, 1000);
+    write_replicate("one-pair", "certified", 2, 1, 1000);
+    write_replicate("one-pair", "fcl-aabb", 2, 1, 4000);
+    assert_int_equal(mote_summary_make("one-pair", &summary), MOTE_OK);
+    const mote_figure_run run = {"one-pair", &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    double middle, ratio[3];
+    assert_int_equal(sscanf(strchr(figure.data.data, '\n') + 1, "%lf %lf %lf %lf", &middle,
+                            &ratio[0], &ratio[1], &ratio[2]),
+                     4);
+    assert_true(fabs(ratio[0] - 4) < 1e-9 && isnan(ratio[1]) && isnan(ratio[2]));
+    assert_string_equal(figure.missing.data,
+                        "intervals on s, for which two replicates of both methods are needed");
+    mote_expect(0, "one-pair/figures/ratios-s.svg", "figures one-pair");
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
 TEST(ratios_of_processes_without_a_pair_are_missing)
 {
     mote_summary summary;
