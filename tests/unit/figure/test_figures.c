@@ -281,6 +281,39 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
     mote_summary_free(&summary);
 }
 
+/* Curves of one figure may be medians of different numbers of processes. */
+TEST(queries_name_the_least_and_the_most_processes)
+{
+    static const struct {
+        int others; /* of FCL; the particles have two */
+        const char *said;
+    } rows[] = {{1, "; the median of 1 to 2 processes. Shaded"},
+                {2, "; the median of 2 processes. Shaded"},
+                {3, "; the median of 2 to 3 processes. Shaded"}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_summary summary;
+        mote_figure figure = {0};
+        char name[16];
+        (void)snprintf(name, sizeof name, "queries-%d", rows[i].others);
+        test_row("%s", name);
+        for (int r = 1; r <= 2; ++r)
+            stored_cell_put(name, (stored_cell){.method = "particle-paper",
+                                                .parameters = "{\"n\": 5}",
+                                                .replicate = r,
+                                                .rows = "1,0,0,100,0.5,0,0,0,7\n"});
+        for (int r = 1; r <= rows[i].others; ++r)
+            write_replicate(name, "fcl-aabb", r, 1, 4000);
+        assert_int_equal(mote_summary_make(name, &summary), MOTE_OK);
+        const mote_figure_run run = {name, &summary, NULL};
+        assert_int_equal(mote_figure_queries(&run, "s", &figure), MOTE_OK);
+        assert_non_null(strstr(figure.caption.data, rows[i].said));
+        free(figure.data.data);
+        free(figure.caption.data);
+        free(figure.missing.data);
+        mote_summary_free(&summary);
+    }
+}
+
 /* Ours has two processes, but the rival has only one: there is no interval. */
 TEST(ratios_of_one_pair_have_no_band)
 {
