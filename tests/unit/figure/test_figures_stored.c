@@ -1,6 +1,8 @@
 /* The data of figures of runs that the test writes itself, with frames without an answer,
    methods that fail, and rows that lack something; gnuplot is a stand-in. */
 #include "harness/base/memory.h"
+#include "harness/figure/figure.h"
+#include "harness/summary/summary_json.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
@@ -191,6 +193,103 @@ TEST(shares_keep_the_fastest_and_ours_and_say_how_many_are_not_there)
     expect_in(caption, note, ROWS_OF(note));
     free(data);
     free(caption);
+}
+
+/* A row of a summary without cells. */
+static void add_row(const char *label, const char *scenario, int triangles, int stride,
+                    const char *interval, mote_text *rows)
+{
+    const bool other = strcmp(scenario, "ww-10m") == 0;
+    mote_text_add(rows,
+                  "%s{\"label\": \"%s\", \"scenario\": \"%s\", \"status\": \"ok\", \"cache\": "
+                  "\"hot\", \"machine\": \"m\", \"times_comparable\": true, \"stride\": %d, "
+                  "\"frame_range\": [%d, %d], \"triangles\": [%d, %d], \"vertices\": [9, 9], "
+                  "\"heap_live_bytes\": 5, \"total_ns\": {\"median\": %d%s}}",
+                  rows->size ? ", " : "", label, scenario, stride, other ? 1 : 5,
+                  other ? 30 : 204, triangles, triangles, triangles, interval);
+}
+
+/* The captions of figures 6 and 7 of a summary of these rows, which are freed; the caller frees
+   both. */
+static void size_captions(mote_text *rows, char **time, char **bytes)
+{
+    mote_summary summary;
+    mote_figure figure = {0}, other = {0};
+    char *json = mote_format("{\"rows\": [%s]}", rows->data);
+    file_put("sizes/summary.json", json);
+    free(json);
+    free(rows->data);
+    assert_int_equal(mote_summary_read("sizes", "summary.json", &summary), MOTE_OK);
+    const mote_figure_run run = {"sizes", &summary, NULL};
+    assert_int_equal(mote_figure_size_time(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(mote_figure_size_bytes(&run, NULL, &other), MOTE_OK);
+    free(figure.data.data);
+    free(other.data.data);
+    *time = figure.caption.data;
+    *bytes = other.caption.data;
+    mote_summary_free(&summary);
+}
+
+#define INTERVAL ", \"ci_low\": 1, \"ci_high\": 2"
+
+TEST(times_over_sizes_say_which_frames_and_intervals_they_have)
+{
+    static const char *const note[] = {
+        "included, with its 95 % interval where two or more processes ran. Frames, which each "
+        "scenario numbers from its own start: 5-204 of ww-1k, ww, ww-1m; 1-30 of ww-10m. "
+        "Every 16th of these only: fcl-aabb on ww-1m, ww-10m; aabb-tree on ww-10m. Exponents"};
+    mote_text rows = {0};
+    char *time, *bytes;
+    const char *const labels[] = {"certified", "fcl-aabb", "aabb-tree"};
+    for (int m = 0; m < 3; ++m) {
+        add_row(labels[m], "ww-1k", 1000, 1, INTERVAL, &rows);
+        add_row(labels[m], "ww", 11920, 1, INTERVAL, &rows);
+        add_row(labels[m], "ww-1m", 1000000, m == 1 ? 16 : 1, INTERVAL, &rows);
+        add_row(labels[m], "ww-10m", 10000000, m > 0 ? 16 : 1, "", &rows);
+    }
+    size_captions(&rows, &time, &bytes);
+    expect_in(time, note, 1);
+    free(time);
+    free(bytes);
+}
+
+TEST(times_of_one_process_over_sizes_have_no_interval)
+{
+    static const char *const note[] = {"refitting included. Frames"};
+    static const char *const sizes[] = {"ww-1k", "ww-2k", "ww-3k"};
+    mote_text rows = {0};
+    char *time, *bytes;
+    for (int i = 0; i < 3; ++i)
+        add_row("certified", sizes[i], 1000 * (i + 1), 1, "", &rows);
+    size_captions(&rows, &time, &bytes);
+    expect_in(time, note, 1);
+    assert_null(strstr(time, "interval"));
+    assert_null(strstr(time, "Every"));
+    assert_null(strstr(time, "not shown"));
+    free(time);
+    free(bytes);
+}
+
+TEST(methods_over_sizes_beyond_the_eighth_are_counted)
+{
+    static const char *const notes[] = {" 1 more method of this run is not shown.",
+                                        " 2 more methods of this run are not shown."};
+    static const char *const sizes[] = {"ww-1k", "ww-2k", "ww-3k"};
+    for (int more = 1; more <= 2; ++more) {
+        mote_text rows = {0};
+        char *time, *bytes;
+        for (int m = 0; m < 8 + more; ++m) {
+            char label[24];
+            (void)snprintf(label, sizeof label, "certified:leaf=%d", m);
+            for (int i = 0; i < 3; ++i)
+                add_row(label, sizes[i], 1000 * (i + 1), 1, INTERVAL, &rows);
+        }
+        size_captions(&rows, &time, &bytes);
+        expect_in(time, &notes[more - 1], 1);
+        expect_in(bytes, &notes[more - 1], 1);
+        free(time);
+        free(bytes);
+    }
 }
 
 #define FILM                                                                                   \
