@@ -292,6 +292,42 @@ TEST(methods_over_sizes_beyond_the_eighth_are_counted)
     }
 }
 
+/* The caption of figure 15 says of the bodies only what the rows do. */
+TEST(several_bodies_are_named_by_their_rows)
+{
+    static const struct {
+        const char *first, *second, *said;
+    } rows[] = {
+        {"\"triangles\": [1380, 11920], \"shapes\": 4",
+         "\"triangles\": [11920, 11920], \"shapes\": 1",
+         "4 near pairs a body: 1,380 to 11,920 triangles each, of 1 to 4 shapes. Points"},
+        {"\"triangles\": [500, 500], \"shapes\": 1", "\"triangles\": [500, 500], \"shapes\": 1",
+         "4 near pairs a body: 500 triangles each, of 1 shape. Points"},
+        {"\"shapes\": 0", "\"shapes\": 0", "4 near pairs a body. Points"},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        const mote_summary none = {0};
+        mote_figure figure = {0};
+        test_row("%s", rows[i].said);
+        char *json =
+            mote_format("{\"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 1, "
+                        "\"bodies\": 100, %s}, {\"label\": \"aabb-tree\", \"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 4, \"bodies\": 10, %s}, {\"label\": \"ode\", "
+                        "\"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 4, \"bodies\": 10, \"triangles\": [2, 90000], "
+                        "\"shapes\": 9}]}",
+                        rows[i].first, rows[i].second);
+        file_put("several/summary.json", json);
+        const mote_figure_run run = {"several", &none, NULL};
+        assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+        expect_in(figure.caption.data, &rows[i].said, 1);
+        free(json);
+        free(figure.data.data);
+        free(figure.caption.data);
+    }
+}
+
 #define FILM                                                                                   \
     "{\"purpose\": \"letters that meet\", \"frames\": 11, \"ask\": \"distance\", "             \
     "\"tolerance\": 0.01, \"bodies\": {\"count\": 4, \"seed\": 3, \"box\": 4, \"near\": 0.2, " \
