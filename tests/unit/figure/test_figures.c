@@ -281,6 +281,24 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
     mote_summary_free(&summary);
 }
 
+/* The axis follows the rows. */
+TEST(errors_over_many_particles_are_within_the_axis)
+{
+    for (int n = 32; n <= 128; n *= 4) {
+        char id[16], parameters[16];
+        (void)snprintf(id, sizeof id, "p-%d", n);
+        (void)snprintf(parameters, sizeof parameters, "{\"n\": %d}", n);
+        stored_cell_put("many-n", (stored_cell){.id = id,
+                                                .method = "particle",
+                                                .parameters = parameters,
+                                                .rows = "1,0,0,100,0.5,0,0,0,7\n"});
+    }
+    mote_expect(0, "many-n/figures/errors-s.svg", "figures many-n");
+    program_read("many-n/figures/errors-s.svg", text, sizeof text);
+    assert_non_null(strstr(text, "> 128<"));
+    assert_null(strstr(text, "> 16<"));
+}
+
 /* Curves of one figure may be medians of different numbers of processes. */
 TEST(queries_name_the_least_and_the_most_processes)
 {

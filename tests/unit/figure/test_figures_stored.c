@@ -162,6 +162,22 @@ TEST(errors_over_n_leave_out_what_was_not_answered)
     free(data);
 }
 
+/* Its place would be at minus infinity. */
+TEST(errors_over_n_leave_out_no_particles_and_say_so)
+{
+    put("s", "particle", "{\"n\": 0}", 100, EXACT);
+    put("s", "particle", "{\"n\": 64}", 200, EXACT);
+    put("s", "particle", "{\"n\": 128}", 300, EXACT);
+    mote_expect(0, "figures/errors-s.svg", "figures run");
+    char *data = file_text("run/figures/errors-s.dat"), *caption = caption_of("errors-s");
+    static const char *const lines[] = {"\"particle\"\n64 0 ", "\n128 0 "};
+    static const char *const note[] = {" Rows with n = 0 are left out"};
+    expect_in(data, lines, ROWS_OF(lines));
+    expect_in(caption, note, ROWS_OF(note));
+    free(data);
+    free(caption);
+}
+
 /* By name, all engines that are faster than ours are before them. */
 TEST(shares_keep_the_fastest_and_ours_and_say_how_many_are_not_there)
 {
