@@ -4,6 +4,9 @@ high = 520
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
+stats data using 1 nooutput
+least_n = STATS_min
+most_n = STATS_max
 
 # Smaller ones are drawn on these: none missed, or nearly exact.
 floor_error = 1e-6
@@ -13,12 +16,16 @@ at_least(value, low) = value > low ? value : low
 array panel[4] = ["median error, L", "95th percentile, L", "99th percentile, L", "contacts missed"]
 
 set logscale x
-set xtics (1, 2, 4, 8, 16, 32, 64)
+# Powers of 2; of 4 or more where these would overlap.
+step = int(ceil(log(most_n / least_n) / log(2) / 8))
+step = step < 1 ? 1 : step
+set xtics (1)
+do for [k=1:24/step] { set xtics add (2**(k*step)) }
 set bars 0.4
 set logscale y
 unset mytics
 set format y "10^{%L}"
-set xrange [0.8:80]
+set xrange [0.8 * least_n:1.25 * most_n]
 eval panels
 
 array mark[4] = [6, 5, 9, 7]

@@ -1,10 +1,11 @@
 # Ratio of the best engine's time to a method's over the frames of a scenario. Blocks of BASE.dat are
-# methods, the best FCL last if it is not the best engine: middle of a part of the frames, ratio, its interval.
+# methods, the best FCL last if it is not the best engine: middle of a part of the frames, ratio, its interval
+# or nan nan.
 high = 430
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
-stats data using 3 nooutput
+stats data using (valid(3) ? $3 : $2) nooutput
 lowest = STATS_min
 
 set logscale y

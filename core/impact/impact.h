@@ -36,10 +36,10 @@ mote_impact_options mote_default_impact_options(double length);
 /* Makes what queries about two bodies need: trees of both and all memory. Either may be a body
    of which only positions are given; its rest mesh decides how well its tree fits. The bodies
    are borrowed. MOTE_EUNSUPPORTED for a field of your own that is not linear in
-   its weights; MOTE_EINVAL for options out of range, for a mode that moves vertices by more than
-   1e100 L or by less than 1e-100 L, and as mote_certificate_create; MOTE_ENOMEM. Cost: as mote_certificate_create, and every function
-   of the fields once at every vertex. The caller destroys *search; one thread at a time may use
-   it. */
+   its weights; MOTE_EINVAL for options out of range, for a mode that moves vertices by more
+   than 1e100 L or by less than 1e-100 L, and as mote_certificate_create; MOTE_ENOMEM. Cost: as
+   mote_certificate_create, and every function of the fields once at every vertex. The caller
+   destroys *search; one thread at a time may use it. */
 mote_status mote_impact_create(const mote_body *const body[2],
                                const mote_impact_options *options, mote_impact_search **search);
 

@@ -81,3 +81,12 @@ const char *mote_show_whole(double value, char text[MOTE_NUMBER_TEXT])
     text[used] = '\0';
     return text;
 }
+
+const char *mote_show_ordinal(uint32_t number, char text[MOTE_NUMBER_TEXT])
+{
+    static const char *const ends[] = {"th", "st", "nd", "rd"};
+    const uint32_t last = number % 10, tens = number / 10 % 10;
+    (void)snprintf(text, MOTE_NUMBER_TEXT, "%u%s", number,
+                   ends[last < 4 && tens != 1 ? last : 0]);
+    return text;
+}

@@ -2,6 +2,8 @@
 #ifndef MOTE_HARNESS_NUMBER_TEXT_H
 #define MOTE_HARNESS_NUMBER_TEXT_H
 
+#include <stdint.h>
+
 #define MOTE_NUMBER_TEXT 24
 
 /* Writes into text and returns text, or returns a constant. */
@@ -15,5 +17,6 @@ const char *mote_show_count(double value, char text[MOTE_NUMBER_TEXT]);   /* "12
 const char *mote_show_bytes(double bytes, char text[MOTE_NUMBER_TEXT]);   /* "61.2 kB" */
 const char *mote_show_whole(double value,
                             char text[MOTE_NUMBER_TEXT]); /* "11,920"; value >= 0 */
+const char *mote_show_ordinal(uint32_t number, char text[MOTE_NUMBER_TEXT]); /* "16th", "2nd" */
 
 #endif

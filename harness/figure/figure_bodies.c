@@ -2,6 +2,7 @@
 #include "harness/figure/figure.h"
 
 #include "harness/base/memory.h"
+#include "harness/base/number_text.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary_json.h"
 
@@ -108,6 +109,57 @@ static void add_ratios(const mote_summary *summary, mote_text *caption)
     }
 }
 
+static bool is_drawn(const mote_summary_row *row)
+{
+    for (size_t d = 0; d < DENSITIES; ++d) {
+        for (size_t m = 0; m < METHODS; ++m) {
+            if (is_row(row, methods[m], densities[d]))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* The least and the most of a number that rows have. */
+typedef struct extent {
+    double least, most;
+} extent;
+
+static void widen(extent *e, double least, double most)
+{
+    e->least = fmin(e->least, least);
+    e->most = fmax(e->most, most);
+}
+
+/* Adds "11,920" or "1,380 to 11,920". */
+static void add_extent(extent e, mote_text *caption)
+{
+    char least[MOTE_NUMBER_TEXT], most[MOTE_NUMBER_TEXT];
+    if (e.least < e.most)
+        mote_text_add(caption, "%s to ", mote_show_whole(e.least, least));
+    mote_text_add(caption, "%s", mote_show_whole(e.most, most));
+}
+
+/* Adds ": 1,380 to 11,920 triangles each, of 1 to 4 shapes", as far as the rows say it. */
+static void say_which_bodies(const mote_summary *summary, mote_text *caption)
+{
+    extent triangles = {INFINITY, 0}, shapes = {INFINITY, 0};
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (!is_drawn(row) || row->triangles[0] == 0 || row->shapes == 0)
+            continue;
+        widen(&triangles, row->triangles[0], row->triangles[1]);
+        widen(&shapes, row->shapes, row->shapes);
+    }
+    if (triangles.most == 0)
+        return;
+    mote_text_add(caption, ": ");
+    add_extent(triangles, caption);
+    mote_text_add(caption, " triangles each, of ");
+    add_extent(shapes, caption);
+    mote_text_add(caption, " shape%s", shapes.most == 1 ? "" : "s");
+}
+
 mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
@@ -130,11 +182,13 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
         return MOTE_OK;
     }
     mote_text_add(&figure->caption,
-                  "Time of a frame over the number of bodies, all deforming, with 0.1, 1 and 4 "
-                  "near pairs a body: letters W of 11,920 triangles; at 10,000, which only "
-                  "certified ran, letters of four shapes. Points: means over the frames but "
-                  "the first, which finds all pairs anew. fcl-aabb and aabb-tree refit the "
-                  "bodies that have a near pair; refit=every refits all.");
+                  "Time of a frame over the number of bodies, with 0.1, 1 and 4 near pairs a "
+                  "body");
+    say_which_bodies(summary, &figure->caption);
+    mote_text_add(&figure->caption,
+                  ". Points: means over the frames but the first, which finds all pairs anew. "
+                  "fcl-aabb and aabb-tree refit the bodies that have a near pair; refit=every "
+                  "refits all.");
     add_ratios(summary, &figure->caption);
     mote_summary_free(&other);
     return MOTE_OK;

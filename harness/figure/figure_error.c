@@ -94,11 +94,12 @@ static void add_errors(const mote_summary_row *row, mote_text *text)
     mote_text_add(text, "\n");
 }
 
-/* Adds a family's block if it has rows with distances; *points counts them. */
-static void add_series(const mote_summary *summary, const char *scenario, const char *family,
+/* Adds a family's block if it has rows with distances; *points counts them. Returns whether it
+   also has one with n = 0, which has no place on a logarithmic axis. */
+static bool add_series(const mote_summary *summary, const char *scenario, const char *family,
                        size_t *points, mote_text *text)
 {
-    bool begun = false;
+    bool begun = false, zero = false;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char other[MOTE_FIGURE_FAMILY];
@@ -106,12 +107,16 @@ static void add_series(const mote_summary *summary, const char *scenario, const 
         if (strcmp(other, family) != 0 || row->n != row->n || !mote_figure_has_error(row) ||
             !mote_figure_shows(summary, row, scenario))
             continue;
+        zero = zero || row->n < 1;
+        if (row->n < 1)
+            continue;
         if (!begun)
             mote_gnuplot_block(text, family);
         begun = true;
         add_errors(row, text);
         ++*points;
     }
+    return zero;
 }
 
 mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
@@ -120,8 +125,9 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
     static const char *const families[] = {"particle-paper:refine=no", "particle-paper",
                                            "particle-paper:refine=always", "particle"};
     size_t points = 0;
+    bool zero = false;
     for (size_t s = 0; s < sizeof families / sizeof families[0]; ++s)
-        add_series(run->summary, scenario, families[s], &points, &figure->data);
+        zero = add_series(run->summary, scenario, families[s], &points, &figure->data) || zero;
     if (points < 2) {
         figure->data.size = 0;
         mote_text_add(&figure->missing, "particles with several n on %s", scenario);
@@ -131,6 +137,9 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
         "Median, 95th and 99th percentile of the absolute error over frames, in L, and the "
         "share of contacts missed, with 95 %% intervals over processes, whose particles start "
         "in different places. Errors of at most 1e-6 L are drawn on the lowest line.");
+    if (zero)
+        mote_text_add(&figure->caption,
+                      " Rows with n = 0 are left out, as the axis of n is logarithmic.");
     return MOTE_OK;
 }
 

@@ -82,6 +82,21 @@ static const mote_summary_row *further_engine(const mote_summary_row *const *sho
     return engine;
 }
 
+/* Adds "10 processes" or, if rows differ, "10 to 20 processes"; rows may be NULL. */
+static void add_processes(const mote_summary_row *const *rows, size_t count, mote_text *caption)
+{
+    size_t least = SIZE_MAX, most = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (!rows[i])
+            continue;
+        least = rows[i]->finished < least ? rows[i]->finished : least;
+        most = rows[i]->finished > most ? rows[i]->finished : most;
+    }
+    if (least < most)
+        mote_text_add(caption, "%zu to ", least);
+    mote_text_add(caption, "%zu process%s", most, most == 1 ? "" : "es");
+}
+
 mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario,
                                 mote_figure *figure)
 {
@@ -104,11 +119,13 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
         &figure->caption,
         "The paper's Figure 3: collision detection between two letters W of 11,920 "
         "triangles with 5 particles on each. Time of each query, deformation and refitting "
-        "included; the median of %zu process%s. Shaded: the warm-up (queries "
-        "1-49) and the active interval (950-1984). The paper (Pentium 4, 2.53 GHz): active "
-        "interval 12.67 ms on average, 47 ms at most; warm-up 12.06 ms on average, 47 ms at "
-        "most.",
-        rows[0]->finished, rows[0]->finished == 1 ? "" : "es");
+        "included; the median of ");
+    add_processes(rows, SERIES, &figure->caption);
+    mote_text_add(
+        &figure->caption,
+        ". Shaded: the warm-up (queries 1-49) and the active interval (950-1984). The paper "
+        "(Pentium 4, 2.53 GHz): active interval 12.67 ms on average, 47 ms at most; warm-up "
+        "12.06 ms on average, 47 ms at most.");
     for (int i = 0; i < SERIES; ++i) {
         if (rows[i])
             add_queries(rows[i], figure);
@@ -121,8 +138,9 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
 
 /* One configuration's mean times; each frame's time is the median over replicates. */
 typedef struct share {
-    const char *label;
+    const mote_summary_row *row;
     double part[3], total; /* deform, update, query; nanoseconds */
+    bool always;           /* shown even if it is slow */
 } share;
 
 #define SHARES_MAX 16
@@ -133,7 +151,7 @@ static void measure_share(const mote_summary_row *row, share *made)
                                               MOTE_FIGURE_QUERY};
     const size_t frames = row->first->frames;
     double *values = mote_allocate(frames, sizeof *values);
-    made->label = row->label;
+    made->row = row;
     made->total = 0;
     for (int p = 0; p < 3; ++p) {
         mote_figure_frames(row, parts[p], values);
@@ -148,7 +166,7 @@ static int by_total(const void *a, const void *b)
     const share *first = a, *second = b;
     if (first->total < second->total || first->total > second->total)
         return first->total < second->total ? -1 : 1;
-    return strcmp(first->label, second->label);
+    return strcmp(first->row->label, second->row->label);
 }
 
 /* The n that represents a method: for the paper's method, the paper's own. */
@@ -157,11 +175,18 @@ static double usual_n(const mote_summary_row *row)
     return strcmp(row->method, "particle-paper") == 0 ? 5 : 8;
 }
 
-static size_t collect_shares(const mote_summary *summary, const char *scenario,
-                             share shares[SHARES_MAX])
+/* Ours without further parameters: what the others are compared with. */
+static bool is_ours(const char *family)
+{
+    return strcmp(family, "certified") == 0 || strcmp(family, "particle") == 0 ||
+           strcmp(family, "particle-paper") == 0;
+}
+
+/* All families, the fastest first; shares has room for every row of the summary. */
+static size_t collect_shares(const mote_summary *summary, const char *scenario, share *shares)
 {
     size_t count = 0;
-    for (size_t i = 0; i < summary->count && count < SHARES_MAX; ++i) {
+    for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char family[MOTE_FIGURE_FAMILY];
         mote_front_title(row, family, sizeof family);
@@ -169,17 +194,39 @@ static size_t collect_shares(const mote_summary *summary, const char *scenario,
             !mote_figure_first(summary, row, scenario))
             continue;
         row = mote_figure_near(summary, scenario, family, usual_n(row));
-        measure_share(row, &shares[count++]);
+        measure_share(row, &shares[count]);
+        shares[count].always = is_ours(family);
+        count += shares[count].total > 0 ? 1 : 0;
     }
     qsort(shares, count, sizeof *shares, by_total);
+    size_t fcl = 0;
+    while (fcl < count && !mote_summary_is_fcl(shares[fcl].row))
+        ++fcl;
+    if (fcl < count)
+        shares[fcl].always = true;
     return count;
+}
+
+/* Keeps those that are always shown and the fastest of the others; returns how many. */
+static size_t keep_fastest(share *shares, size_t count)
+{
+    size_t places = SHARES_MAX, kept = 0;
+    for (size_t i = 0; i < count; ++i)
+        places -= shares[i].always ? 1 : 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (!shares[i].always && places == 0)
+            continue;
+        places -= shares[i].always ? 0 : 1;
+        shares[kept++] = shares[i];
+    }
+    return kept;
 }
 
 static void add_share(const share *s, size_t place, mote_text *text)
 {
     const double d = s->part[0] / s->total, u = s->part[1] / s->total;
     mote_text_add(text, "%zu %.17g %.17g 1 ", place, d, d + u);
-    mote_gnuplot_quote(text, s->label);
+    mote_gnuplot_quote(text, s->row->label);
     char number[MOTE_NUMBER_TEXT];
     if (s->total < 1e6)
         mote_text_add(text, " \"%.3g\"\n", s->total * 1e-3);
@@ -190,12 +237,12 @@ static void add_share(const share *s, size_t place, mote_text *text)
 mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
-    share shares[SHARES_MAX];
+    share *shares = mote_allocate(run->summary->count, sizeof *shares);
     const size_t count = collect_shares(run->summary, scenario, shares);
-    for (size_t i = 0; i < count; ++i) {
-        if (shares[i].total > 0)
-            add_share(&shares[i], i + 1, &figure->data);
-    }
+    const size_t kept = keep_fastest(shares, count);
+    for (size_t i = 0; i < kept; ++i)
+        add_share(&shares[i], i + 1, &figure->data);
+    free(shares);
     if (count == 0)
         mote_text_add(&figure->missing, "a method that ran on %s", scenario);
     mote_text_add(
@@ -204,6 +251,11 @@ mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
         "vertices, refitting the bounding volumes, and the query. The time of each frame is "
         "the median over processes. Of configurations that differ only in n, the one nearest "
         "to n = 5 (the paper's method) or n = 8 is shown.");
+    if (kept < count)
+        mote_text_add(&figure->caption,
+                      " Of these %zu, the fastest are shown, and always certified, particle, "
+                      "particle-paper and the fastest of FCL; the other %zu are not.",
+                      count, count - kept);
     return MOTE_OK;
 }
 
@@ -224,10 +276,11 @@ static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *ot
     return count ? mote_statistics_median(work, count) : MOTE_NONE;
 }
 
-/* Adds one part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
-   values holds a number per replicate. */
-static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
-                      double last, double *values, double *work, mote_text *text)
+/* Adds one part's line, middle frame, ratio and its interval over replicates, which one pair of
+   processes does not have. Returns the number of pairs. values holds a number per replicate. */
+static size_t add_ratio(const mote_summary_row *row, const mote_summary_row *other,
+                        double first, double last, double *values, double *work,
+                        mote_text *text)
 {
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
@@ -238,21 +291,24 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
             values[count++] = value;
     }
     if (count == 0)
-        return;
-    const double mean = mote_statistics_mean(values, count);
-    mote_confidence interval = mote_statistics_t_interval(values, count);
-    if (interval.low != interval.low)
-        interval = (mote_confidence){mean, mean};
-    mote_text_add(text, "%.17g %.17g %.17g %.17g\n", (first + last - 1) / 2, exp(mean),
-                  exp(interval.low), exp(interval.high));
+        return 0;
+    const mote_confidence interval = mote_statistics_t_interval(values, count);
+    mote_text_add(text, "%.17g %.17g ", (first + last - 1) / 2,
+                  exp(mote_statistics_mean(values, count)));
+    if (count < 2)
+        mote_text_add(text, "nan nan\n");
+    else
+        mote_text_add(text, "%.17g %.17g\n", exp(interval.low), exp(interval.high));
+    return count;
 }
 
-/* Adds a block of parts; none if no process has a frame in common with its partner. */
-static void add_ratios(const mote_summary_row *row, const mote_summary_row *other,
-                       mote_text *text)
+/* Adds a block of parts; none if no process has a frame in common with its partner. Returns the
+   least number of pairs of processes that a part has; SIZE_MAX without a part. */
+static size_t add_ratios(const mote_summary_row *row, const mote_summary_row *other,
+                         mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
-    size_t longest = 0;
+    size_t longest = 0, least = SIZE_MAX;
     for (size_t r = 0; r < row->replicates; ++r)
         longest = row->cells[r].frames > longest ? row->cells[r].frames : longest;
     double *values = mote_allocate(row->replicates + longest, sizeof *values);
@@ -260,14 +316,18 @@ static void add_ratios(const mote_summary_row *row, const mote_summary_row *othe
     mote_text lines = {0};
     const double from = cell->frame[0];
     const double width = (cell->frame[cell->frames - 1] + 1 - from) / PARTS;
-    for (int p = 0; p < PARTS; ++p)
-        add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, &lines);
+    for (int p = 0; p < PARTS; ++p) {
+        const size_t pairs = add_ratio(row, other, from + p * width, from + (p + 1) * width,
+                                       values, work, &lines);
+        least = pairs > 0 && pairs < least ? pairs : least;
+    }
     if (lines.size > 0) {
         mote_gnuplot_block(text, row->label);
         mote_text_add(text, "%s", lines.data);
     }
     free(lines.data);
     free(values);
+    return least;
 }
 
 /* What a row is compared with: the fastest engine of others without a wrong answer, else the
@@ -277,8 +337,9 @@ static const mote_summary_row *rival_of(const mote_summary_row *row)
     return row->ratio_engine.to ? row->ratio_engine.to : row->ratio_best.to;
 }
 
-/* Adds the caption, and the best FCL as a series if it is not the best engine. */
-static void add_rivals(const mote_summary_row *row, const char *scenario, mote_figure *figure)
+/* Adds the caption, and the best FCL as a series if it is not the best engine; returns the
+   least number of pairs, as above. */
+static size_t add_rivals(const mote_summary_row *row, const char *scenario, mote_figure *figure)
 {
     const mote_summary_row *rival = rival_of(row), *fcl = row->ratio_best.to;
     mote_text_add(
@@ -290,11 +351,11 @@ static void add_rivals(const mote_summary_row *row, const char *scenario, mote_f
         rival->label,
         rival == row->ratio_engine.to ? "engine of others" : "configuration of FCL", scenario,
         strcmp(row->ask, "contact") == 0 ? ", asked for contacts" : "", PARTS);
-    if (fcl && fcl != rival) {
-        mote_text_add(&figure->caption, " The fastest configuration of FCL, %s, is shown too.",
-                      fcl->label);
-        add_ratios(fcl, rival, &figure->data);
-    }
+    if (!fcl || fcl == rival)
+        return SIZE_MAX;
+    mote_text_add(&figure->caption, " The fastest configuration of FCL, %s, is shown too.",
+                  fcl->label);
+    return add_ratios(fcl, rival, &figure->data);
 }
 
 mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
@@ -311,19 +372,21 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
             mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
         if (!row || !rival_of(row) || row->first->frames == 0)
             continue;
-        const mote_summary_row *rival = rival_of(row);
         if (!first)
             first = row;
-        least = row->finished < least ? row->finished : least;
-        add_ratios(row, rival, &figure->data);
+        const size_t pairs = add_ratios(row, rival_of(row), &figure->data);
+        least = pairs < least ? pairs : least;
     }
-    if (first)
-        add_rivals(first, scenario, figure);
+    if (first) {
+        const size_t pairs = add_rivals(first, scenario, figure);
+        least = pairs < least ? pairs : least;
+    }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
                       "a method of ours and one of others on the same frames of %s", scenario);
     else if (least < 2)
-        mote_text_add(&figure->missing, "intervals on %s, for which two replicates are needed",
+        mote_text_add(&figure->missing,
+                      "intervals on %s, for which two replicates of both methods are needed",
                       scenario);
     return MOTE_OK;
 }

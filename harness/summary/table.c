@@ -109,23 +109,15 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
     return text.data;
 }
 
-/* "16th", "2nd" */
-static const char *ordinal_of(uint32_t number, char text[16])
-{
-    static const char *const ends[] = {"th", "st", "nd", "rd"};
-    const uint32_t last = number % 10, tens = number / 10 % 10;
-    (void)snprintf(text, 16, "%u%s", number, ends[last < 4 && tens != 1 ? last : 0]);
-    return text;
-}
-
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
 {
     const bool applies[MOTE_ROW_NOTES] = {row->stride > 1, row->jobs > 1,
                                           row->failed > 0 && row->finished > 0,
                                           row->told[0] && row->status == MOTE_CELL_OK};
-    char ordinal[16];
+    char ordinal[MOTE_NUMBER_TEXT];
     if (applies[i] && i == 0)
-        (void)snprintf(text, MOTE_ROW_NOTE, "every %s frame", ordinal_of(row->stride, ordinal));
+        (void)snprintf(text, MOTE_ROW_NOTE, "every %s frame",
+                       mote_show_ordinal(row->stride, ordinal));
     else if (applies[i] && i == 1)
         (void)snprintf(text, MOTE_ROW_NOTE, "times not comparable: %u cells at once",
                        row->jobs);

@@ -281,6 +281,82 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
     mote_summary_free(&summary);
 }
 
+/* The axis follows the rows. */
+TEST(errors_over_many_particles_are_within_the_axis)
+{
+    for (int n = 32; n <= 128; n *= 4) {
+        char id[16], parameters[16];
+        (void)snprintf(id, sizeof id, "p-%d", n);
+        (void)snprintf(parameters, sizeof parameters, "{\"n\": %d}", n);
+        stored_cell_put("many-n", (stored_cell){.id = id,
+                                                .method = "particle",
+                                                .parameters = parameters,
+                                                .rows = "1,0,0,100,0.5,0,0,0,7\n"});
+    }
+    mote_expect(0, "many-n/figures/errors-s.svg", "figures many-n");
+    program_read("many-n/figures/errors-s.svg", text, sizeof text);
+    assert_non_null(strstr(text, "> 128<"));
+    assert_null(strstr(text, "> 16<"));
+}
+
+/* Curves of one figure may be medians of different numbers of processes. */
+TEST(queries_name_the_least_and_the_most_processes)
+{
+    static const struct {
+        int others; /* of FCL; the particles have two */
+        const char *said;
+    } rows[] = {{1, "; the median of 1 to 2 processes. Shaded"},
+                {2, "; the median of 2 processes. Shaded"},
+                {3, "; the median of 2 to 3 processes. Shaded"}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_summary summary;
+        mote_figure figure = {0};
+        char name[16];
+        (void)snprintf(name, sizeof name, "queries-%d", rows[i].others);
+        test_row("%s", name);
+        for (int r = 1; r <= 2; ++r)
+            stored_cell_put(name, (stored_cell){.method = "particle-paper",
+                                                .parameters = "{\"n\": 5}",
+                                                .replicate = r,
+                                                .rows = "1,0,0,100,0.5,0,0,0,7\n"});
+        for (int r = 1; r <= rows[i].others; ++r)
+            write_replicate(name, "fcl-aabb", r, 1, 4000);
+        assert_int_equal(mote_summary_make(name, &summary), MOTE_OK);
+        const mote_figure_run run = {name, &summary, NULL};
+        assert_int_equal(mote_figure_queries(&run, "s", &figure), MOTE_OK);
+        assert_non_null(strstr(figure.caption.data, rows[i].said));
+        free(figure.data.data);
+        free(figure.caption.data);
+        free(figure.missing.data);
+        mote_summary_free(&summary);
+    }
+}
+
+/* Ours has two processes, but the rival has only one: there is no interval. */
+TEST(ratios_of_one_pair_have_no_band)
+{
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("one-pair", "certified", 1, 1, 1000);
+    write_replicate("one-pair", "certified", 2, 1, 1000);
+    write_replicate("one-pair", "fcl-aabb", 2, 1, 4000);
+    assert_int_equal(mote_summary_make("one-pair", &summary), MOTE_OK);
+    const mote_figure_run run = {"one-pair", &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    double middle, ratio[3];
+    assert_int_equal(sscanf(strchr(figure.data.data, '\n') + 1, "%lf %lf %lf %lf", &middle,
+                            &ratio[0], &ratio[1], &ratio[2]),
+                     4);
+    assert_true(fabs(ratio[0] - 4) < 1e-9 && isnan(ratio[1]) && isnan(ratio[2]));
+    assert_string_equal(figure.missing.data,
+                        "intervals on s, for which two replicates of both methods are needed");
+    mote_expect(0, "one-pair/figures/ratios-s.svg", "figures one-pair");
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
 TEST(ratios_of_processes_without_a_pair_are_missing)
 {
     mote_summary summary;

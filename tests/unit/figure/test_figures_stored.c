@@ -1,6 +1,8 @@
 /* The data of figures of runs that the test writes itself, with frames without an answer,
    methods that fail, and rows that lack something; gnuplot is a stand-in. */
 #include "harness/base/memory.h"
+#include "harness/figure/figure.h"
+#include "harness/summary/summary_json.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
@@ -158,6 +160,188 @@ TEST(errors_over_n_leave_out_what_was_not_answered)
     expect_in(data, lines, ROWS_OF(lines));
     assert_null(strstr(data, "\n4 "));
     free(data);
+}
+
+/* Its place would be at minus infinity. */
+TEST(errors_over_n_leave_out_no_particles_and_say_so)
+{
+    put("s", "particle", "{\"n\": 0}", 100, EXACT);
+    put("s", "particle", "{\"n\": 64}", 200, EXACT);
+    put("s", "particle", "{\"n\": 128}", 300, EXACT);
+    mote_expect(0, "figures/errors-s.svg", "figures run");
+    char *data = file_text("run/figures/errors-s.dat"), *caption = caption_of("errors-s");
+    static const char *const lines[] = {"\"particle\"\n64 0 ", "\n128 0 "};
+    static const char *const note[] = {" Rows with n = 0 are left out"};
+    expect_in(data, lines, ROWS_OF(lines));
+    expect_in(caption, note, ROWS_OF(note));
+    free(data);
+    free(caption);
+}
+
+/* By name, all engines that are faster than ours are before them. */
+TEST(shares_keep_the_fastest_and_ours_and_say_how_many_are_not_there)
+{
+    static const char *const shown[] = {"\n16 ",
+                                        "\"certified\"",
+                                        "\"particle:n=8\"",
+                                        "\"particle-paper:n=5\"",
+                                        "\"fcl-aabb:queue=3\"",
+                                        "\"coal-aabb:queue=11\""};
+    static const char *const note[] = {
+        " Of these 24, the fastest are shown, and always certified, particle, particle-paper "
+        "and the fastest of FCL; the other 8 are not."};
+    char parameters[40];
+    for (int k = 1; k <= 18; ++k) {
+        (void)snprintf(parameters, sizeof parameters, "{\"queue\": %d}", k);
+        put("s", "coal-aabb", parameters, 100 * k, EXACT);
+    }
+    put("s", "fcl-aabb", "{\"queue\": 3}", 6000, EXACT);
+    put("s", "fcl-aabb", "{\"queue\": 5}", 7000, EXACT);
+    put("s", "aabb-tree", "{}", 50, EXACT);
+    put("s", "certified", "{}", 8000, EXACT);
+    put("s", "particle", "{\"n\": 8}", 9000, EXACT);
+    put("s", "particle-paper", "{\"n\": 5}", 9500, EXACT);
+    mote_expect(0, "figures/shares-s.svg", "figures run");
+    char *data = file_text("run/figures/shares-s.dat"), *caption = caption_of("shares-s");
+    expect_in(data, shown, ROWS_OF(shown));
+    assert_null(strstr(data, "\n17 "));
+    assert_null(strstr(data, "fcl-aabb:queue=5"));
+    expect_in(caption, note, ROWS_OF(note));
+    free(data);
+    free(caption);
+}
+
+/* A row of a summary without cells. */
+static void add_row(const char *label, const char *scenario, int triangles, int stride,
+                    const char *interval, mote_text *rows)
+{
+    const bool other = strcmp(scenario, "ww-10m") == 0;
+    mote_text_add(rows,
+                  "%s{\"label\": \"%s\", \"scenario\": \"%s\", \"status\": \"ok\", \"cache\": "
+                  "\"hot\", \"machine\": \"m\", \"times_comparable\": true, \"stride\": %d, "
+                  "\"frame_range\": [%d, %d], \"triangles\": [%d, %d], \"vertices\": [9, 9], "
+                  "\"heap_live_bytes\": 5, \"total_ns\": {\"median\": %d%s}}",
+                  rows->size ? ", " : "", label, scenario, stride, other ? 1 : 5,
+                  other ? 30 : 204, triangles, triangles, triangles, interval);
+}
+
+/* The captions of figures 6 and 7 of a summary of these rows, which are freed; the caller frees
+   both. */
+static void size_captions(mote_text *rows, char **time, char **bytes)
+{
+    mote_summary summary;
+    mote_figure figure = {0}, other = {0};
+    char *json = mote_format("{\"rows\": [%s]}", rows->data);
+    file_put("sizes/summary.json", json);
+    free(json);
+    free(rows->data);
+    assert_int_equal(mote_summary_read("sizes", "summary.json", &summary), MOTE_OK);
+    const mote_figure_run run = {"sizes", &summary, NULL};
+    assert_int_equal(mote_figure_size_time(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(mote_figure_size_bytes(&run, NULL, &other), MOTE_OK);
+    free(figure.data.data);
+    free(other.data.data);
+    *time = figure.caption.data;
+    *bytes = other.caption.data;
+    mote_summary_free(&summary);
+}
+
+#define INTERVAL ", \"ci_low\": 1, \"ci_high\": 2"
+
+TEST(times_over_sizes_say_which_frames_and_intervals_they_have)
+{
+    static const char *const note[] = {
+        "included, with its 95 % interval where two or more processes ran. Frames, which each "
+        "scenario numbers from its own start: 5-204 of ww-1k, ww, ww-1m; 1-30 of ww-10m. "
+        "Every 16th of these only: fcl-aabb on ww-1m, ww-10m; aabb-tree on ww-10m. Exponents"};
+    mote_text rows = {0};
+    char *time, *bytes;
+    const char *const labels[] = {"certified", "fcl-aabb", "aabb-tree"};
+    for (int m = 0; m < 3; ++m) {
+        add_row(labels[m], "ww-1k", 1000, 1, INTERVAL, &rows);
+        add_row(labels[m], "ww", 11920, 1, INTERVAL, &rows);
+        add_row(labels[m], "ww-1m", 1000000, m == 1 ? 16 : 1, INTERVAL, &rows);
+        add_row(labels[m], "ww-10m", 10000000, m > 0 ? 16 : 1, "", &rows);
+    }
+    size_captions(&rows, &time, &bytes);
+    expect_in(time, note, 1);
+    free(time);
+    free(bytes);
+}
+
+TEST(times_of_one_process_over_sizes_have_no_interval)
+{
+    static const char *const note[] = {"refitting included. Frames"};
+    static const char *const sizes[] = {"ww-1k", "ww-2k", "ww-3k"};
+    mote_text rows = {0};
+    char *time, *bytes;
+    for (int i = 0; i < 3; ++i)
+        add_row("certified", sizes[i], 1000 * (i + 1), 1, "", &rows);
+    size_captions(&rows, &time, &bytes);
+    expect_in(time, note, 1);
+    assert_null(strstr(time, "interval"));
+    assert_null(strstr(time, "Every"));
+    assert_null(strstr(time, "not shown"));
+    free(time);
+    free(bytes);
+}
+
+TEST(methods_over_sizes_beyond_the_eighth_are_counted)
+{
+    static const char *const notes[] = {" 1 more method of this run is not shown.",
+                                        " 2 more methods of this run are not shown."};
+    static const char *const sizes[] = {"ww-1k", "ww-2k", "ww-3k"};
+    for (int more = 1; more <= 2; ++more) {
+        mote_text rows = {0};
+        char *time, *bytes;
+        for (int m = 0; m < 8 + more; ++m) {
+            char label[24];
+            (void)snprintf(label, sizeof label, "certified:leaf=%d", m);
+            for (int i = 0; i < 3; ++i)
+                add_row(label, sizes[i], 1000 * (i + 1), 1, INTERVAL, &rows);
+        }
+        size_captions(&rows, &time, &bytes);
+        expect_in(time, &notes[more - 1], 1);
+        expect_in(bytes, &notes[more - 1], 1);
+        free(time);
+        free(bytes);
+    }
+}
+
+/* The caption of figure 15 says of the bodies only what the rows do. */
+TEST(several_bodies_are_named_by_their_rows)
+{
+    static const struct {
+        const char *first, *second, *said;
+    } rows[] = {
+        {"\"triangles\": [1380, 11920], \"shapes\": 4",
+         "\"triangles\": [11920, 11920], \"shapes\": 1",
+         "4 near pairs a body: 1,380 to 11,920 triangles each, of 1 to 4 shapes. Points"},
+        {"\"triangles\": [500, 500], \"shapes\": 1", "\"triangles\": [500, 500], \"shapes\": 1",
+         "4 near pairs a body: 500 triangles each, of 1 shape. Points"},
+        {"\"shapes\": 0", "\"shapes\": 0", "4 near pairs a body. Points"},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        const mote_summary none = {0};
+        mote_figure figure = {0};
+        test_row("%s", rows[i].said);
+        char *json =
+            mote_format("{\"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 1, "
+                        "\"bodies\": 100, %s}, {\"label\": \"aabb-tree\", \"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 4, \"bodies\": 10, %s}, {\"label\": \"ode\", "
+                        "\"status\": \"ok\", "
+                        "\"near_pairs_wanted\": 4, \"bodies\": 10, \"triangles\": [2, 90000], "
+                        "\"shapes\": 9}]}",
+                        rows[i].first, rows[i].second);
+        file_put("several/summary.json", json);
+        const mote_figure_run run = {"several", &none, NULL};
+        assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+        expect_in(figure.caption.data, &rows[i].said, 1);
+        free(json);
+        free(figure.data.data);
+        free(figure.caption.data);
+    }
 }
 
 #define FILM                                                                                   \
