@@ -13,16 +13,24 @@
 
 #include <string.h>
 
-/* A direction counts where so much of the distance is proven. */
+/* A direction counts where so much of the distance is proven, and the witnesses, rounded by
+   2^-53 of their coordinates, are so many of these apart. */
 #define NORMAL_PART 0.9
+#define NORMAL_LEAST 0x1p-46
 
-/* The direction between the witnesses. Far from the world's origin these are rounded by more
-   than bodies that nearly touch are apart. What is proven of the distance then falls short of
-   it, and the direction of an earlier look is kept. Of a first look any direction does. */
+static bool is_direction_certain(const mote_certificate_answer *at)
+{
+    const double size =
+        fmax(mote_largest_coordinate(at->witness[0]), mote_largest_coordinate(at->witness[1]));
+    return at->lower >= NORMAL_PART * at->distance && at->distance >= NORMAL_LEAST * size;
+}
+
+/* The direction between the witnesses. Where rounding hides it, that of an earlier look is
+   kept; of a first look any direction does. */
 static void set_normal(mote_impact_search *s)
 {
     const bool first = !(mote_length_squared(s->found.normal) > 0);
-    if (!(s->at.distance > 0) || (!first && s->at.lower < NORMAL_PART * s->at.distance))
+    if (!(s->at.distance > 0) || (!first && !is_direction_certain(&s->at)))
         return;
     const mote_vec3 n = mote_sub(s->at.witness[1], s->at.witness[0]);
     const double inverse = 1 / mote_length(n);

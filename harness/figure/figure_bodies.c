@@ -143,7 +143,7 @@ static void add_extent(extent e, mote_text *caption)
 /* Adds ": 1,380 to 11,920 triangles each, of 1 to 4 shapes", as far as the rows say it. */
 static void say_which_bodies(const mote_summary *summary, mote_text *caption)
 {
-    extent triangles = {INFINITY, 0}, shapes = {INFINITY, 0};
+    extent triangles = {HUGE_VAL, 0}, shapes = {HUGE_VAL, 0};
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         if (!is_drawn(row) || row->triangles[0] == 0 || row->shapes == 0)
