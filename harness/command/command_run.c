@@ -32,8 +32,9 @@ const mote_option mote_options_run[] = {
     {"cache", "hot|evict",
      "evict: walk over 32 MB between frames, so that caches are cold (default: hot)"},
     {"stride", "auto|K",
-     "measure every K-th frame; auto: every 16th for slow methods without state (default: "
-     "auto)"},
+     "measure every K-th frame; methods that keep state from frame to frame, and scenes of "
+     "more than two bodies, are measured in every one; auto: every 16th for slow methods "
+     "without state (default: auto)"},
     {"step", "1,3,10,30,100",
      "ask for impacts, K frames at a time, once with each K (default: what the scenario asks)"},
     {"dry-run", NULL, "print the plan and measure nothing"},

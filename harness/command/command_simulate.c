@@ -10,7 +10,6 @@
 #include "harness/loop/replicates.h"
 #include "harness/loop/simulate.h"
 #include "harness/loop/simulate_print.h"
-#include "harness/loop/simulations.h"
 #include "harness/loop/trace.h"
 #include "harness/process/child.h"
 #include "harness/process/manifest.h"
@@ -130,8 +129,9 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
     return status;
 }
 
-/* Prints and writes what the directory keeps; returns the exit status. */
-static int report(const request *wish)
+/* Prints and writes what the directory keeps; returns the exit status, which depends only on
+   what this command asked for. */
+static int report(const request *wish, const mote_replicates *plans)
 {
     mote_simulations list = {0};
     size_t failed = 0, all = 0;
@@ -142,10 +142,8 @@ static int report(const request *wish)
         status = mote_simulation_put(mote_simulations_json(&list), stdout);
     else if (status == MOTE_OK)
         mote_simulations_print(&list, stdout);
-    for (size_t i = 0; i < list.count; ++i) {
-        failed += list.rows[i].failed;
-        all += list.rows[i].failed + list.rows[i].done;
-    }
+    for (size_t i = 0; i < wish->scenario_count; ++i)
+        mote_replicates_count(&plans[i], &list, &all, &failed);
     mote_simulations_free(&list);
     if (status != MOTE_OK)
         return mote_command_fail();
@@ -205,7 +203,7 @@ static int simulate_replicates(const request *wish)
     mote_subject *subjects = mote_allocate(wish->scenario_count, sizeof *subjects);
     mote_replicates *plans = mote_allocate(wish->scenario_count, sizeof *plans);
     const mote_status status = simulate_plans(wish, subjects, plans);
-    const int code = status == MOTE_OK ? report(wish) : mote_command_fail();
+    const int code = status == MOTE_OK ? report(wish, plans) : mote_command_fail();
     for (size_t i = 0; i < wish->scenario_count; ++i)
         mote_subject_free(&subjects[i]);
     free(subjects);

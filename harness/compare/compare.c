@@ -464,6 +464,14 @@ static bool same_frames(const json_t *a, const json_t *b)
     return first == second || json_equal(first, second); /* or neither has one */
 }
 
+/* Whether a counted row was asked what a row of the summary was. Those of older versions do not
+   say it: they are of questions that span no frames, and of what the scenario asks. */
+static bool same_ask(const json_t *counted, const mote_summary_row *row)
+{
+    return mote_compared_agree(mote_text_at(counted, "ask"), row->ask) &&
+           json_integer_value(json_object_get(counted, "step")) == (json_int_t)row->step;
+}
+
 /* The counted row for a row of the summary, over the frames of `like` if that is given; NULL if
    there is none. */
 static const json_t *find_counted(const json_t *counted, const mote_summary_row *row,
@@ -476,7 +484,7 @@ static const json_t *find_counted(const json_t *counted, const mote_summary_row 
         if (strcmp(mote_text_at(other, "scenario"), row->scenario) == 0 &&
             mote_compared_agree(mote_text_at(other, "fingerprint"), row->fingerprint) &&
             mote_compared_agree(mote_text_at(other, "faces"), row->faces) &&
-            strcmp(mote_text_at(other, "method"), row->method) == 0 &&
+            same_ask(other, row) && strcmp(mote_text_at(other, "method"), row->method) == 0 &&
             json_equal(json_object_get(other, "parameters"), row->parameters) &&
             (!like || same_frames(other, like)))
             return other;

@@ -6,7 +6,6 @@
 #include "harness/base/record.h"
 #include "harness/loop/simulate.h"
 #include "harness/loop/simulate_print.h"
-#include "harness/loop/simulations.h"
 #include "harness/process/crew.h"
 #include "harness/process/manifest.h"
 #include "harness/run/progress.h"
@@ -40,16 +39,21 @@ static uint32_t replicate_of(const mote_replicates *plan, size_t task)
     return (uint32_t)(task / plan->choices->count) + 1;
 }
 
+static void program_text(const mote_replicates *plan, char text[MOTE_PROGRAM_SIZE])
+{
+    (void)snprintf(text, MOTE_PROGRAM_SIZE, "%016" PRIx64, plan->program);
+}
+
 /* Everything that determines a result. The caller decrefs. */
 static json_t *identity(const mote_replicates *plan, size_t task)
 {
     const mote_simulation_options *o = &plan->options;
     const mote_method_choice *choice = choice_of(plan, task);
     const uint32_t replicate = replicate_of(plan, task);
-    char fingerprint[20], faces[20], program[20];
+    char fingerprint[20], faces[20], program[MOTE_PROGRAM_SIZE];
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, plan->subject->fingerprint);
     (void)snprintf(faces, sizeof faces, "%016" PRIx64, plan->subject->faces);
-    (void)snprintf(program, sizeof program, "%016" PRIx64, plan->program);
+    program_text(plan, program);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:[f,f,f], s:s, s:b}",
         "fingerprint", fingerprint, "faces", faces, "method", choice->method->name,
@@ -233,24 +237,41 @@ static mote_status simulate_missing(const mote_replicates *plan, uint32_t first,
     return status;
 }
 
+/* Whether a row is of a method of the plan, asked the same. */
+static bool is_asked(const mote_replicates *plan, size_t m, const mote_simulations_row *row)
+{
+    json_t *object = describe(plan, m);
+    json_t *question = mote_simulation_question(object);
+    const bool same = json_equal(row->question, question);
+    json_decref(question);
+    json_decref(object);
+    return same;
+}
+
 /* The half width of the interval of a method's time, as a share of it: infinite if there is
    none yet, 0 if more replicates would not help. */
 static double width_of(const mote_replicates *plan, size_t m, const mote_simulations *list)
 {
-    json_t *object = describe(plan, m);
-    json_t *question = mote_simulation_question(object);
     double width = 0;
     for (size_t i = 0; i < list->count; ++i) {
         const mote_simulations_row *row = &list->rows[i];
-        if (json_equal(row->question, question) &&
-            json_equal(json_object_get(row->origin, "program"),
-                       json_object_get(object, "program")) &&
-            row->done > 0 && row->failed == 0)
+        if (row->done > 0 && row->failed == 0 && is_asked(plan, m, row))
             width = mote_statistics_half_width(row->query_ns, row->interval);
     }
-    json_decref(question);
-    json_decref(object);
     return width;
+}
+
+void mote_replicates_count(const mote_replicates *plan, const mote_simulations *list,
+                           size_t *all, size_t *failed)
+{
+    for (size_t i = 0; i < list->count; ++i) {
+        const mote_simulations_row *row = &list->rows[i];
+        bool asked = false;
+        for (size_t m = 0; m < plan->choices->count && !asked; ++m)
+            asked = is_asked(plan, m, row);
+        *all += asked ? (size_t)row->done + row->failed : 0;
+        *failed += asked ? row->failed : 0;
+    }
 }
 
 /* Adds replicates of the methods whose time is not precise enough, until there are none or the
@@ -263,9 +284,11 @@ static mote_status add_replicates(const mote_replicates *plan)
     uint32_t replicates = plan->replicates;
     double widest = 0, round = 0;
     mote_status status = MOTE_OK;
+    char program[MOTE_PROGRAM_SIZE];
+    program_text(plan, program);
     while (status == MOTE_OK) {
         mote_simulations list = {0};
-        status = mote_simulations_read(plan->directory, &list);
+        status = mote_simulations_read_of(plan->directory, program, &list);
         widest = 0;
         for (size_t m = 0; m < methods && status == MOTE_OK; ++m) {
             const double width = width_of(plan, m, &list);

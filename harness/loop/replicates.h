@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_REPLICATES_H
 #define MOTE_HARNESS_REPLICATES_H
 
-#include "harness/loop/simulation.h"
+#include "harness/loop/simulations.h"
 #include "harness/run/plan.h"
 
 typedef struct mote_replicates {
@@ -32,5 +32,10 @@ mote_status mote_replicates_check(const mote_replicates *plan);
    stored as that replicate's result. MOTE_EIO also if a signal asked to stop. With a share, the
    precision reached is told on stderr. */
 mote_status mote_replicates_run(const mote_replicates *plan);
+
+/* Adds to *all the simulations in a list that the plan asks for, of which a directory may keep
+   more, and to *failed those of them that failed; unsupported ones do not count. */
+void mote_replicates_count(const mote_replicates *plan, const mote_simulations *list,
+                           size_t *all, size_t *failed);
 
 #endif

@@ -6,6 +6,7 @@
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/loop/simulate_print.h"
+#include "harness/process/manifest.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -181,7 +182,7 @@ static mote_status visit_files(const char *directory,
 }
 
 typedef struct reading {
-    const char *directory;
+    const char *directory, *program;
     mote_simulations *list;
 } reading;
 
@@ -189,21 +190,32 @@ static mote_status read_file(void *context, const char *name)
 {
     const reading *r = context;
     json_t *stored = NULL;
-    if (mote_record_read_json(r->directory, name, &stored) == MOTE_OK)
+    const bool read = mote_record_read_json(r->directory, name, &stored) == MOTE_OK;
+    if (read && r->program[0] && strcmp(mote_text_at(stored, "program"), r->program) != 0)
+        ++r->list->left_out;
+    else if (read)
         add_stored(stored, r->list);
     json_decref(stored);
     return MOTE_OK;
 }
 
-mote_status mote_simulations_read(const char *directory, mote_simulations *list)
+mote_status mote_simulations_read_of(const char *directory, const char *program,
+                                     mote_simulations *list)
 {
-    reading r = {directory, list};
+    reading r = {directory, program, list};
     const mote_status status = visit_files(directory, read_file, &r);
     for (size_t i = 0; i < list->count; ++i)
         combine(&list->rows[i]);
     if (list->count > 0)
         qsort(list->rows, list->count, sizeof *list->rows, by_name);
     return status;
+}
+
+mote_status mote_simulations_read(const char *directory, mote_simulations *list)
+{
+    char program[MOTE_PROGRAM_SIZE];
+    mote_manifest_program(directory, program);
+    return mote_simulations_read_of(directory, program, list);
 }
 
 void mote_simulations_free(mote_simulations *list)
@@ -242,7 +254,9 @@ static json_t *row_json(const mote_simulations_row *row)
 
 json_t *mote_simulations_json(const mote_simulations *list)
 {
-    json_t *rows = json_array(), *root = json_pack("{s:i}", "schema", 1);
+    json_t *rows = json_array();
+    json_t *root = json_pack("{s:i, s:I}", "schema", 1, "simulations_left_out",
+                             (json_int_t)list->left_out);
     bool one = list->count > 0;
     for (size_t i = 0; i < list->count; ++i) {
         one = one && strcmp(list->rows[i].scenario, list->rows[0].scenario) == 0;
@@ -315,4 +329,7 @@ void mote_simulations_print(const mote_simulations *list, FILE *out)
                           row->interval.high / 1e3);
         (void)fprintf(out, "\n");
     }
+    if (list->left_out > 0)
+        (void)fprintf(out, "%zu simulations are of another build and are left out\n",
+                      list->left_out);
 }

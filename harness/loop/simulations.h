@@ -34,6 +34,7 @@ typedef struct mote_simulations_row {
 typedef struct mote_simulations {
     mote_simulations_row *rows; /* sorted by scenario and method */
     size_t count;
+    size_t left_out; /* stored simulations of other programs */
 } mote_simulations;
 
 /* What a stored simulation asks, the same for all replicates and programs: scenario, method,
@@ -56,16 +57,22 @@ mote_status mote_simulations_copy(const char *from, const char *to, size_t *copi
                                   size_t *present);
 
 /* Reads a directory's simulations; damaged files are left out, since `mote simulate` makes them
-   again. MOTE_EIO, with the path, if the directory keeps none. The caller frees *list even
-   after a failure. */
+   again. Those of a program other than the one in manifest.json are counted and left out.
+   MOTE_EIO, with the path, if the directory keeps none. The caller frees *list even after a
+   failure. */
 mote_status mote_simulations_read(const char *directory, mote_simulations *list);
+
+/* The same of a given program ("": any), while manifest.json is still that of an earlier one.
+ */
+mote_status mote_simulations_read_of(const char *directory, const char *program,
+                                     mote_simulations *list);
 void mote_simulations_free(mote_simulations *list);
 
-/* {"schema": 1, "rows": [...]}: a row has the keys of `mote simulate --json` and "fingerprint",
-   "faces", "replicates", "replicates_failed", "query_ns_low", "query_ns_high"; without a result
-   it has no figures, and "unsupported" if the method cannot answer. If all rows are of one
-   scenario, the object has its "scenario", "fingerprint", "faces" and "bodies" too. The caller
-   decrefs. */
+/* {"schema": 1, "simulations_left_out", "rows": [...]}: a row has the keys of `mote simulate
+   --json` and "fingerprint", "faces", "replicates", "replicates_failed", "query_ns_low",
+   "query_ns_high"; without a result it has no figures, and "unsupported" if the method cannot
+   answer. If all rows are of one scenario, the object has its "scenario", "fingerprint",
+   "faces" and "bodies" too. The caller decrefs. */
 json_t *mote_simulations_json(const mote_simulations *list);
 
 /* Writes DIRECTORY/simulations.json. */

@@ -37,6 +37,18 @@ mote_status mote_program_hash(uint64_t *hash)
     return MOTE_OK;
 }
 
+void mote_manifest_program(const char *directory, char program[MOTE_PROGRAM_SIZE])
+{
+    json_t *manifest = NULL;
+    program[0] = '\0';
+    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
+        return;
+    const char *text = mote_text_at(manifest, "program");
+    if (strlen(text) < MOTE_PROGRAM_SIZE)
+        memcpy(program, text, strlen(text) + 1);
+    json_decref(manifest);
+}
+
 /* The value of the line "KEY : VALUE" of a file in /proc; "" if there is none. */
 static void proc_value(const char *path, const char *key, char *value, size_t size)
 {

@@ -11,6 +11,11 @@
    libraries loaded into it (plugin.h). MOTE_EIO if it cannot be read. */
 mote_status mote_program_hash(uint64_t *hash);
 
+/* The program of the last session that wrote directory/manifest.json; "" if it names none, or
+   there is no manifest. */
+#define MOTE_PROGRAM_SIZE 32
+void mote_manifest_program(const char *directory, char program[MOTE_PROGRAM_SIZE]);
+
 /* Identifies the machine, to decide whether two times may be compared: "name, processor", as
    far as the system tells; cut to size. */
 #define MOTE_MACHINE_SIZE 320

@@ -154,6 +154,9 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     if (mote_simulations_exist(directory) &&
         mote_simulations_read(directory, &made.simulations) != MOTE_OK)
         add_text(made.damaged, mote_format("simulations: %s", mote_error_text()));
+    if (made.simulations.left_out > 0)
+        add_text(made.missing, mote_format("%zu simulations, which are of another build",
+                                           made.simulations.left_out));
     if (!made.has_summary && !made.figure_count && !made.simulations.count &&
         !mote_record_exists(directory, "claims.json")) {
         mote_report_free(&made);

@@ -154,8 +154,8 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
 
 static bool same_row(const json_t *a, const json_t *b)
 {
-    static const char *const keys[] = {"scenario", "fingerprint", "faces",
-                                       "method",   "parameters",  "frames"};
+    static const char *const keys[] = {"scenario", "fingerprint", "faces",      "ask",
+                                       "step",     "method",      "parameters", "frames"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         if (!json_equal(json_object_get(a, keys[i]), json_object_get(b, keys[i])))
             return false;
@@ -194,11 +194,13 @@ static json_t *row_json(const request *r, const mote_method_choice *choice, json
     char fingerprint[20], faces[20];
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, r->subject.fingerprint);
     (void)snprintf(faces, sizeof faces, "%016" PRIx64, r->subject.faces);
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario",
-                     mote_subject_facts_of(&r->subject).name, "fingerprint", fingerprint,
-                     "faces", faces, "method", choice->method->name, "label", choice->text,
-                     "parameters", mote_choice_json(choice, r->subject.bodies != NULL),
-                     "frames", (int)r->first, (int)r->last, "instructions", count, "per_frame",
+    const mote_subject_facts facts = mote_subject_facts_of(&r->subject);
+    return json_pack("{s:s, s:s, s:s, s:s, s:i, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario",
+                     facts.name, "fingerprint", fingerprint, "faces", faces, "ask",
+                     mote_ask_names[facts.ask], "step", (int)mote_subject_step(&r->subject),
+                     "method", choice->method->name, "label", choice->text, "parameters",
+                     mote_choice_json(choice, r->subject.bodies != NULL), "frames",
+                     (int)r->first, (int)r->last, "instructions", count, "per_frame",
                      (double)count / r->questions);
 }
 

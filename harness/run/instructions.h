@@ -16,8 +16,9 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
 
 /* Runs this program once under callgrind for each choice, and adds to
    directory/instructions.json {"schema": 1, "program", "rows": [{"scenario" (its name),
-   "fingerprint", "faces", "method", "label", "parameters", "frames": [A, B], "instructions",
-   "per_frame"}]}; counts cover deformation, update and query; rows of the same configuration
+   "fingerprint", "faces", "ask", "step" (0: no impacts), "method", "label", "parameters",
+   "frames": [A, B], "instructions", "per_frame"}]}; counts cover deformation, update and query;
+   rows of the same configuration
    are replaced, and all rows that another build of the program counted are dropped. The file is
    written after each choice. Makes the directory. MOTE_EIO if valgrind or the program fails:
    what was counted before is kept. */

@@ -240,3 +240,33 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
     *plan = made;
     return MOTE_OK;
 }
+
+bool mote_cell_needs_every_frame(const mote_cell *cell)
+{
+    return cell->step == 0 &&
+           (cell->subject->bodies ||
+            mote_method_traits(cell->choice->method, cell->choice->values).keeps_state);
+}
+
+/* Whether two cells have one name among those that need every frame. */
+static bool same_name(const mote_cell *a, const mote_cell *b)
+{
+    const bool many = a->subject->bodies != NULL;
+    return many ? a->subject == b->subject : !b->subject->bodies && a->choice == b->choice;
+}
+
+void mote_plan_unstrided(const mote_plan *plan, mote_text *names)
+{
+    for (size_t i = 0; i < plan->count && plan->cells[i].replicate == 1; ++i) {
+        const mote_cell *cell = &plan->cells[i];
+        bool told = cell->stride_asked <= 1 || !mote_cell_needs_every_frame(cell);
+        for (size_t k = 0; k < i && !told; ++k)
+            told = mote_cell_needs_every_frame(&plan->cells[k]) &&
+                   same_name(cell, &plan->cells[k]);
+        if (!told)
+            mote_text_add(names, "%s%s%s", names->size ? ", " : "",
+                          cell->subject->bodies ? "all methods on " : "",
+                          cell->subject->bodies ? mote_subject_facts_of(cell->subject).name
+                                                : cell->choice->text);
+    }
+}

@@ -63,4 +63,13 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
                            size_t subject_count, const mote_choices *choices,
                            const mote_choices *scene_choices, mote_plan *plan);
 
+/* Whether a cell is measured in every frame whatever stride is asked for: its method, or the
+   pairs of its many bodies, keep state from frame to frame. Questions about impacts begin where
+   they are told to. */
+bool mote_cell_needs_every_frame(const mote_cell *cell);
+
+/* Adds the names of what a stride that was asked for does not hold for, "certified, all methods
+   on crowd"; nothing if there is nothing, or none was asked for. */
+void mote_plan_unstrided(const mote_plan *plan, mote_text *names);
+
 #endif

@@ -130,8 +130,7 @@ static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 {
     if (cell->step > 0) /* one question begins where the last one ended */
         return cell->stride_asked != MOTE_STRIDE_AUTO ? cell->stride_asked : cell->step;
-    if (cell->subject->bodies || /* pairs keep state */
-        mote_method_traits(cell->choice->method, cell->choice->values).keeps_state)
+    if (mote_cell_needs_every_frame(cell))
         return 1;
     if (cell->stride_asked != MOTE_STRIDE_AUTO)
         return cell->stride_asked;
@@ -238,6 +237,20 @@ static const char *step_text(const mote_cell *cell, char text[STEP_TEXT])
     return text;
 }
 
+/* A stride that does not hold must not seem to. */
+static void print_unstrided(const run *r)
+{
+    mote_text names = {.data = NULL};
+    mote_plan_unstrided(&r->plan, &names);
+    if (names.size > 0)
+        (void)fprintf(
+            stderr,
+            "--stride %u does not hold for what keeps state from frame to frame, which "
+            "is measured in every frame: %s\n",
+            r->options->plan.stride, names.data);
+    free(names.data);
+}
+
 static void print_plan(const run *r)
 {
     char left[32];
@@ -249,6 +262,7 @@ static void print_plan(const run *r)
                       "%u cells at a time: their times are marked as not comparable, and no "
                       "ratio is made of them\n",
                       r->process.jobs);
+    print_unstrided(r);
     if (!r->options->dry_run)
         return;
     for (size_t i = 0; i < r->plan.count; ++i) {

@@ -15,6 +15,20 @@ static bool error_no_worse(double a, double b)
     return no_worse(a <= MOTE_EXACT_ERROR ? 0 : a, b <= MOTE_EXACT_ERROR ? 0 : b);
 }
 
+/* What part of a row's frames a count is: of the rows of one block some have every frame and
+   others every K-th, so their counts say nothing beside each other. */
+static double share_of_frames(const mote_summary_row *row, double count)
+{
+    return count / fmax(1, (double)row->frames);
+}
+
+static bool contacts_no_worse(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return no_worse(share_of_frames(a, a->missed), share_of_frames(b, b->missed)) &&
+           no_worse(share_of_frames(a, a->false_contacts),
+                    share_of_frames(b, b->false_contacts));
+}
+
 /* In a scene that asks only for contacts, some methods give distances and others do not, so
    errors do not count. */
 static bool distances_no_worse(const mote_summary_row *a, const mote_summary_row *b)
@@ -29,8 +43,7 @@ bool mote_dominates(const mote_summary_row *a, const mote_summary_row *b)
 {
     return mote_summary_row_measured(a) && mote_summary_row_measured(b) &&
            mote_summary_same_block(a, b) && a->given == b->given &&
-           a->total.high < b->total.low && distances_no_worse(a, b) &&
-           no_worse(a->missed, b->missed) && no_worse(a->false_contacts, b->false_contacts);
+           a->total.high < b->total.low && distances_no_worse(a, b) && contacts_no_worse(a, b);
 }
 
 void mote_find_dominated(mote_summary_row *rows, size_t count)
@@ -47,7 +60,7 @@ void mote_find_dominated(mote_summary_row *rows, size_t count)
     }
 }
 
-/* Wrong contacts, error and time of a row; among rows that are good enough, the time
+/* Share of wrong contacts, error and time of a row; among rows that are good enough, the time
    decides. */
 typedef struct standing {
     double wrong, error, time;
@@ -55,7 +68,8 @@ typedef struct standing {
 
 static standing standing_of(const mote_summary_row *row)
 {
-    const double wrong = row->missed + row->false_contacts, time = row->total.median;
+    const double wrong = share_of_frames(row, row->missed + row->false_contacts);
+    const double time = row->total.median;
     const bool asked = strcmp(row->ask, "contact") != 0;
     const bool timed = row->status == MOTE_CELL_OK && row->times_comparable && time == time;
     return (standing){wrong == wrong ? wrong : HUGE_VAL,

@@ -5,6 +5,7 @@
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/base/statistics.h"
+#include "harness/process/manifest.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -379,19 +380,6 @@ static mote_status read_cell(const char *directory, const char *file, const char
     return status;
 }
 
-/* The program of the last session; "" without a manifest. */
-static void manifest_program(const char *directory, char *program, size_t size)
-{
-    json_t *manifest = NULL;
-    program[0] = '\0';
-    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
-        return;
-    const char *text = mote_text_at(manifest, "program");
-    if (strlen(text) < size)
-        memcpy(program, text, strlen(text) + 1);
-    json_decref(manifest);
-}
-
 static int by_group(const void *a, const void *b)
 {
     const mote_stored_cell *first = a, *second = b;
@@ -432,8 +420,8 @@ static mote_status add_file(const char *directory, const char *file, const char 
 mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored)
 {
     mote_stored read = {0};
-    char program[32];
-    manifest_program(directory, program, sizeof program);
+    char program[MOTE_PROGRAM_SIZE];
+    mote_manifest_program(directory, program);
     char *path = mote_format("%s/cells", directory);
     DIR *folder = opendir(path);
     mote_status status = folder

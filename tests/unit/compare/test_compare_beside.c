@@ -104,6 +104,38 @@ TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
     remove_beside();
 }
 
+/* `mote run mv --step 10` asks for impacts: a count of distances on mv says nothing of it. */
+TEST(compare_of_instructions_is_of_what_was_asked)
+{
+    static const struct {
+        const char *row, *counted;
+        int status;
+        const char *says;
+    } cases[] = {
+        {"{'ask': 'impact', 'step': 10}", "{}", 0, "same or better"},
+        {"{'ask': 'impact', 'step': 10}", "{'ask': 'distance', 'step': 0}", 0,
+         "same or better"},
+        {"{'ask': 'impact', 'step': 10}", "{'ask': 'impact', 'step': 5}", 0, "same or better"},
+        {"{'ask': 'impact', 'step': 10}", "{'ask': 'impact', 'step': 10}", 1,
+         "instructions 1000 to 1100"},
+        {"{'ask': 'distance'}", "{'ask': 'contact', 'step': 0}", 0, "same or better"},
+        {"{'ask': 'distance'}", "{'ask': 'distance', 'step': 0}", 1,
+         "instructions 1000 to 1100"},
+        {"{'ask': 'distance'}", "{}", 1, "instructions 1000 to 1100"}};
+    static const char *const runs[] = {"old", "new"};
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        test_row("%s, counted %s", cases[i].row, cases[i].counted);
+        for (size_t k = 0; k < ROWS_OF(runs); ++k) {
+            write_run(runs[k], &usual, k == 0 ? 1 : -1);
+            write_beside(runs[k], "one", k == 0 ? 1000 : 1100);
+            change_row(runs[k], "summary.json", cases[i].row);
+            change_row(runs[k], "instructions.json", cases[i].counted);
+        }
+        expect("", cases[i].status, cases[i].says);
+    }
+    remove_beside();
+}
+
 /* A count that only one run has, or over other frames, is not compared, and this is
    reported. */
 TEST(compare_of_instructions_of_other_frames_or_scenes_is_undecided)

@@ -86,6 +86,43 @@ TEST(rows_join_replicates_of_one_question_and_origin)
     mote_simulations_free(&list);
 }
 
+/* As cells are: what an earlier build of the program simulated is no row of this one. */
+TEST(simulations_of_other_programs_are_left_out)
+{
+    static const struct {
+        const char *manifest;
+        size_t count, left_out;
+    } cases[] = {{"{\"program\": \"p2\"}", 1, 2},
+                 {"{\"program\": \"p3\"}", 0, 3},
+                 {"{\"program\": 5}", 2, 0}};
+    put("a", (stored){.file = "1", .status = "crashed"});
+    put("a", (stored){.file = "2", .replicate = 2});
+    put("a", (stored){.file = "3", .program = "p2"});
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        mote_simulations list = {0};
+        test_row("%s", cases[i].manifest);
+        file_put("a/manifest.json", cases[i].manifest);
+        assert_int_equal(mote_simulations_read("a", &list), MOTE_OK);
+        assert_int_equal(list.count, cases[i].count);
+        assert_int_equal(list.left_out, cases[i].left_out);
+        mote_simulations_free(&list);
+    }
+    file_put("a/manifest.json", cases[0].manifest);
+    mote_expect(0, "2 simulations are of another build and are left out\n", "summarize a");
+    assert_null(strstr(said, "failed 1"));
+    mote_expect(0, "\"simulations_left_out\": 2", "summarize a --format json");
+    mote_expect(0, "a/report.html", "report a");
+    char *text = file_text("a/report.md");
+    assert_non_null(strstr(text, "2 simulations, which are of another build"));
+    free(text);
+    /* The first row by name is of the other program. */
+    put("b", (stored){.file = "1", .program = "p0", .replicate = 3});
+    put("b", (stored){.file = "2", .program = "p2"});
+    file_put("b/manifest.json", cases[0].manifest);
+    mote_expect(0, "two/certified/simulated", "compare a b");
+    assert_null(strstr(said, "no replicate in common"));
+}
+
 TEST(damaged_files_are_left_out)
 {
     static const char *const damaged[] = {
@@ -192,17 +229,23 @@ TEST(compared_simulations_say_what_cannot_be_compared)
     mote_expect(3, "two/certified/simulated", "compare one others");
 }
 
-/* What a directory keeps is not simulated again, unless it is damaged. */
-TEST(kept_simulations_are_recalled_if_they_are_whole)
+/* Two diamonds, the second flying at the first. */
+static void put_two(void)
 {
-    static const char line[] = "simulate two.json --method certified --method fcl-obb --seed 3 "
-                               "--steps 5 --replicates 2 --out kept";
     file_put("a.obj", DIAMOND);
     file_put("two.json",
              "{\"purpose\": \"x\", \"frames\": 40, \"ask\": \"distance\", \"tolerance\": 0.01, "
              "\"bodies\": [{\"file\": \"a.obj\"}, {\"file\": \"a.obj\", \"motion\": "
              "[{\"frame\": 1, \"position\": [2.1, 0.1, 0]}, {\"frame\": 40, \"position\": "
              "[0.5, 0.1, 0]}]}]}\n");
+}
+
+/* What a directory keeps is not simulated again, unless it is damaged. */
+TEST(kept_simulations_are_recalled_if_they_are_whole)
+{
+    static const char line[] = "simulate two.json --method certified --method fcl-obb --seed 3 "
+                               "--steps 5 --replicates 2 --out kept";
+    put_two();
     mote_expect(0, "plan: 4 simulations, 0 of them done", line);
     mote_expect(0, "plan: 4 simulations, 4 of them done", line);
     assert_int_equal(system("cd kept/simulations && echo '{' > \"$(ls *certified-r1-*)\" && "
@@ -210,4 +253,26 @@ TEST(kept_simulations_are_recalled_if_they_are_whole)
                      0);
     mote_expect(0, "plan: 4 simulations, 2 of them done", line);
     mote_expect(0, "plan: 4 simulations, 4 of them done", line);
+}
+
+/* A failed simulation fails the commands that ask for it, until the program is another. */
+TEST(only_failures_that_were_asked_for_fail_a_command)
+{
+    static const char again[] = "simulate two.json --method certified --steps 5 --out kept";
+    put_two();
+    mote_expect(0, "two certified r1: ok", again);
+    assert_int_equal(system("sed -i 's/\"status\": \"ok\"/\"status\": \"crashed\"/; "
+                            "/\"steps\":/d' kept/simulations/*"),
+                     0);
+    mote_expect(5, "1 of 1 simulations failed", again);
+    mote_expect(0, "two fcl-obb r1: ok",
+                "simulate two.json --method fcl-obb --steps 5 --out kept");
+    mote_expect(5, "1 of 1 simulations failed", again);
+    /* As an earlier build would have named them. */
+    assert_int_equal(system("cd kept/simulations && mv *certified* earlier.json && "
+                            "sed -i 's/\"program\": \"/&0/' earlier.json"),
+                     0);
+    mote_expect(0, "two certified r1: ok", again);
+    assert_non_null(strstr(said, "1 simulations are of another build and are left out"));
+    assert_null(strstr(said, "every replicate failed"));
 }

@@ -68,6 +68,30 @@ static double count_of(const char *scenario, const char *method, size_t *found)
     return count;
 }
 
+/* Counts of the distance and of impacts of one scene are two rows, which say what was asked. */
+TEST(instructions_say_what_was_asked)
+{
+    static const struct {
+        const char *scenario, *ask;
+        int step;
+    } cases[] = {{"s.json", "distance", 0}, {"impact.json", "impact", 2}};
+    file_put("impact.json",
+             "{\"purpose\": \"two\", \"frames\": 4, \"ask\": \"impact\", \"step\": 2, "
+             "\"bodies\": [{\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": "
+             "[{\"frame\": 1, \"position\": [3, 0, 0]}]}]}\n");
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        test_row("%s", cases[i].scenario);
+        mote_expect(0, "instructions a frame",
+                    "instructions %s --frames 1-3 --out . --method certified",
+                    cases[i].scenario);
+        json_t *object = kept();
+        const json_t *row = json_array_get(json_object_get(object, "rows"), i);
+        assert_string_equal(mote_text_at(row, "ask"), cases[i].ask);
+        assert_true(mote_number_at(row, "step") == cases[i].step);
+        json_decref(object);
+    }
+}
+
 /* Rows of a run have the scenario's name, wherever its file lies. */
 TEST(instructions_are_kept_under_the_name_of_the_scenario)
 {

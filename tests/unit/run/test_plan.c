@@ -80,6 +80,31 @@ TEST(questions_about_impacts_are_planned_by_their_steps)
                 ROWS_OF(strided));
 }
 
+/* Where a stride would change what a method remembers, the plan says that there is none. */
+TEST(a_stride_that_does_not_hold_is_told)
+{
+    static const struct {
+        const char *arguments, *names; /* NULL: nothing is told */
+    } cases[] = {
+        {"plain.json --stride 2 --method certified:seed=none --method certified --method "
+         "particle --method fcl-aabb:seed=none --replicates 2",
+         "every frame: certified, particle\n"},
+        {"plain.json many.json --stride 2 --method certified --method aabb-tree:seed=none",
+         "every frame: certified, all methods on many\n"},
+        {"many.json --stride 3 --method certified", "every frame: all methods on many\n"},
+        {"plain.json --stride 2 --method certified:seed=none", NULL},
+        {"plain.json many.json --stride 1 --method certified", NULL},
+        {"plain.json many.json --method certified", NULL},
+        {"plain.json --step 1 --stride 2 --method certified", NULL},
+    };
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        test_row("%s", cases[i].arguments);
+        mote_expect(0, cases[i].names ? cases[i].names : "plan: ",
+                    "run %s --out planned --dry-run", cases[i].arguments);
+        assert_int_equal(strstr(said, "does not hold") != NULL, cases[i].names != NULL);
+    }
+}
+
 TEST(lists_of_values_are_planned_one_by_one)
 {
     static const char *const both[] = {

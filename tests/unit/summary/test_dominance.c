@@ -130,6 +130,34 @@ TEST(rows_of_two_bodies_with_other_strides_are_of_the_same_frames)
     assert_int_equal(mote_summary_by_frames(&all, &some), 0);
 }
 
+/* 2 missed contacts in 12 frames are more than 3 in 200, and 1 in 100 less than 3. */
+TEST(rows_with_other_strides_are_compared_by_shares_of_wrong_contacts)
+{
+    static const struct {
+        size_t frames;
+        double missed, false_contacts;
+        bool better;
+    } cases[] = {{12, 2, 0, false}, {12, 0, 2, false}, {100, 1, 1, true}, {12, 0, 0, true}};
+    write_row((stored_cell){.method = "ours"},
+              (answers){.query_ns = 1000, .missed = 3, .wrong = 3});
+    make_summary();
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        mote_summary_row rows[] = {*row_of("ours", false), *row_of("ours", false)};
+        test_row("%zu frames, %g and %g wrong", cases[i].frames, cases[i].missed,
+                 cases[i].false_contacts);
+        rows[1].frames = cases[i].frames;
+        rows[1].stride = (uint32_t)(FRAMES / cases[i].frames);
+        rows[1].missed = cases[i].missed;
+        rows[1].false_contacts = cases[i].false_contacts;
+        rows[1].total.median = rows[1].total.low = rows[1].total.high = 10;
+        mote_find_dominated(rows, ROWS_OF(rows));
+        assert_int_equal(rows[0].dominated_by == &rows[1], cases[i].better);
+        mote_find_method_rows(rows, ROWS_OF(rows));
+        assert_int_equal(rows[1].stands_for_method, cases[i].better);
+        assert_int_equal(rows[0].stands_for_method, !cases[i].better);
+    }
+}
+
 /* A scene that asks for contacts only: some methods also give a distance, others none. */
 TEST(distances_do_not_count_where_contacts_are_asked_for)
 {
