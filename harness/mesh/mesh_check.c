@@ -26,7 +26,8 @@ static bool begins(const char *line, const char *word)
     return strncasecmp(line, word, strlen(word)) == 0;
 }
 
-/* Whether a line has three numbers and nothing else. */
+/* Whether a line has three numbers and nothing else. A # may follow after a blank only: assimp
+   reads -1.#IND, as old runtimes of Microsoft wrote NaN, as -1. */
 static bool has_three_numbers(const char *at)
 {
     for (int i = 0; i < 3; ++i) {
@@ -35,7 +36,7 @@ static bool has_three_numbers(const char *at)
         if (mote_is_end(*at))
             return false;
         (void)strtod(at, &end);
-        if (end == at || !(mote_is_blank(*end) || mote_is_end(*end)))
+        if (end == at || *end == '#' || !(mote_is_blank(*end) || mote_is_end(*end)))
             return false;
         at = end;
     }

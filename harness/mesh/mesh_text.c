@@ -59,6 +59,13 @@ const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at)
     }
 }
 
+mote_status mote_mesh_refuse_coordinate(const mote_mesh_reader *reader, const char *end)
+{
+    return mote_fail(
+        MOTE_EINVAL, "%s:%zu: a coordinate is not a finite double; give a smaller number%s",
+        reader->path, reader->line, *end == '#' ? ", and a blank before a comment" : "");
+}
+
 mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, const char *right)
 {
     double xyz[3];
@@ -70,11 +77,8 @@ mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, cons
         if (mote_is_end(*at) || end == at || !mote_mesh_word_ends(reader, end))
             return mote_fail(MOTE_EINVAL, "%s:%zu: a vertex without three numbers; %s",
                              reader->path, reader->line, right);
-        if (!isfinite(xyz[i]))
-            return mote_fail(
-                MOTE_EINVAL,
-                "%s:%zu: a coordinate is not a finite double; give a smaller number",
-                reader->path, reader->line);
+        if (!mote_mesh_is_coordinate(xyz[i], end))
+            return mote_mesh_refuse_coordinate(reader, end);
         at = end;
     }
     return mote_soup_add_vertex(reader->soup, xyz[0], xyz[1], xyz[2]);

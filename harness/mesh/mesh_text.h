@@ -5,6 +5,8 @@
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_soup.h"
 
+#include <math.h>
+
 typedef struct mote_mesh_reader {
     const char *path; /* for messages */
     size_t line;      /* from 1 */
@@ -56,6 +58,16 @@ static inline bool mote_mesh_word_ends(const mote_mesh_reader *reader, const cha
 {
     return mote_is_blank(*at) || mote_is_end(*at) || mote_continuation(reader, at) > 0;
 }
+
+/* Whether a number that was read up to `end` is a coordinate. A # right behind it begins no
+   comment: old runtimes of Microsoft wrote NaN and infinity as -1.#IND and 1.#INF. */
+static inline bool mote_mesh_is_coordinate(double value, const char *end)
+{
+    return isfinite(value) && *end != '#';
+}
+
+/* MOTE_EINVAL with file and line for a number that is none. */
+mote_status mote_mesh_refuse_coordinate(const mote_mesh_reader *reader, const char *end);
 
 /* Reads three finite numbers, ignoring what follows them, and adds them as a vertex.
    MOTE_EINVAL with file and line; `right` gives the correct form ("write v x y z"). */

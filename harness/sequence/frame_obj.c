@@ -4,7 +4,6 @@
 
 #include "harness/mesh/mesh_text.h"
 
-#include <math.h>
 #include <string.h>
 
 static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_frame_file *file)
@@ -19,11 +18,8 @@ static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_fr
             return mote_fail(MOTE_EINVAL,
                              "%s:%zu: a vertex without three numbers; write v x y z",
                              reader->path, reader->line);
-        if (!isfinite(xyz[i]))
-            return mote_fail(
-                MOTE_EINVAL,
-                "%s:%zu: a coordinate is not a finite double; give a smaller number",
-                reader->path, reader->line);
+        if (!mote_mesh_is_coordinate(xyz[i], end))
+            return mote_mesh_refuse_coordinate(reader, end);
         at = end;
     }
     if (file->count < file->room)
