@@ -63,8 +63,9 @@ const json_t *mote_gltf_sampler(const json_t *animation, const json_t *channel);
    clips, too. MOTE_EINVAL with the entry and what would be right. */
 mote_status mote_gltf_check(const mote_gltf *gltf, bool moves);
 
-/* Checks that the numbers of joints in vertices are those of joints: assimp ignores others.
-   Reads buffers. MOTE_EINVAL with the accessor. */
+/* Checks that the numbers of joints in vertices are those of joints, and that weights are
+   finite and not negative: assimp ignores others. Reads buffers. MOTE_EINVAL with the
+   accessor. */
 mote_status mote_gltf_check_joints(mote_gltf *gltf);
 
 /* Gives the bytes of a buffer, which belong to gltf: loads them if need be from the file, from

@@ -3,6 +3,7 @@
 
 #include "harness/base/file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,6 +71,22 @@ static bool is_plain(const skinned *s, int64_t accessor)
     return json_object_get(entry, "bufferView") && !json_object_get(entry, "sparse");
 }
 
+/* assimp leaves out weights that are not above 0, and those of the vertex that are left would
+   take their place. */
+static mote_status check_weights(const skinned *s, size_t set, const mote_gltf_numbers *weights)
+{
+    for (size_t i = 0; i < 4 * weights->count; ++i) {
+        if (!isfinite(weights->values[i]) || weights->values[i] < 0)
+            return mote_fail(MOTE_EINVAL,
+                             "%s: meshes[%lld]: WEIGHTS_%zu (accessors[%lld]) has the weight "
+                             "%g at vertex %zu; give a finite one that is not negative",
+                             s->gltf->path, (long long)s->mesh, set,
+                             (long long)accessor_of(s, "WEIGHTS", set), weights->values[i],
+                             i / 4);
+    }
+    return MOTE_OK;
+}
+
 static mote_status check_range(const skinned *s, size_t set, const mote_gltf_numbers *joints,
                                const mote_gltf_numbers *weights)
 {
@@ -95,6 +112,8 @@ static mote_status check_set(const skinned *s, size_t set)
     mote_status status = mote_gltf_read(s->gltf, "JOINTS", from[0], 4, false, &joints);
     if (status == MOTE_OK)
         status = mote_gltf_read(s->gltf, "WEIGHTS", from[1], 4, true, &weights);
+    if (status == MOTE_OK)
+        status = check_weights(s, set, &weights);
     if (status == MOTE_OK)
         status = check_range(s, set, &joints, &weights);
     free(joints.values);

@@ -362,6 +362,28 @@ TEST(character_of_wrong_joints_is_refused)
     mote_character_destroy(import("c.gltf", NULL));
 }
 
+/* assimp ignores such weights. */
+TEST(character_of_wrong_weights_is_refused)
+{
+    static const char nan[] = "c.gltf: meshes[0]: WEIGHTS_0 (accessors[1]) has the weight nan",
+                      none[] = "c.gltf: meshes[0]: WEIGHTS_0 (accessors[1]) has the weight "
+                               "-0.25 at vertex 2; give a finite one that is not negative";
+    static const struct {
+        float weight;
+        const char *says;
+    } rows[] = {{-0.25F, none}, {NAN, nan}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        buffer data = make_buffer();
+        data.weights[9] = rows[i].weight;
+        write_gltf("c.gltf", &data, TWO_NODES, BOUND, SKIN);
+        refuse("c.gltf", rows[i].says);
+    }
+    buffer data = make_buffer();
+    data.weights[9] = -0.0F;
+    write_gltf("c.gltf", &data, TWO_NODES, BOUND, SKIN);
+    mote_character_destroy(import("c.gltf", NULL));
+}
+
 /* The joint is no part of the scene. */
 TEST(character_whose_joint_is_elsewhere_is_refused_by_its_name)
 {
