@@ -276,10 +276,13 @@ static mote_status follow_node(reader *r, const struct aiMesh *mesh, uint32_t ba
 }
 
 /* The weight of a target at rest. In glTF a node's own takes the place of its mesh's, which is
-   all that assimp reads. */
+   all that assimp reads. Of other formats assimp does not tell it: it says 1 of all targets of
+   FBX, and of those of COLLADA whose weight is 0. */
 static double weight_at_rest(const reader *r, uint32_t node, const struct aiAnimMesh *to,
                              unsigned target)
 {
+    if (!r->gltf)
+        return 0;
     const int64_t number = gltf_number(r, r->nodes[node]->mName.data);
     const json_t *entry = number < 0 ? NULL : mote_gltf_entry(r->gltf, "nodes", number);
     const json_t *own = json_array_get(json_object_get(entry, "weights"), target);
