@@ -111,19 +111,38 @@ static void add_channel(clip_reader *r, const struct aiNodeAnim *from)
     r->taken[node] = true;
 }
 
-/* The weight of one target at all keys; 0 at a key that does not name it. */
+/* What a key says of a target, or NULL. */
+static const double *weight_in(const struct aiMeshMorphKey *key, uint32_t number)
+{
+    const double *weight = NULL;
+    for (unsigned i = 0; i < key->mNumValuesAndWeights; ++i) {
+        if (key->mValues[i] == number)
+            weight = &key->mWeights[i];
+    }
+    return weight;
+}
+
+static uint32_t count_weights(const struct aiMeshMorphAnim *from, uint32_t number)
+{
+    uint32_t count = 0;
+    for (unsigned k = 0; k < from->mNumKeys; ++k)
+        count += weight_in(&from->mKeys[k], number) != NULL;
+    return count;
+}
+
+/* The weight of one target at the `count` keys that name it: assimp merges the keys of all
+   targets of an FBX mesh into one list, in which each names those that have a key then. */
 static mote_rig_track add_weights(clip_reader *r, const struct aiMeshMorphAnim *from,
-                                  uint32_t number)
+                                  uint32_t number, uint32_t count)
 {
     double *times, *values;
-    const mote_rig_track track = add_track(r, from->mNumKeys, 1, &times, &values);
-    for (unsigned k = 0; k < from->mNumKeys; ++k) {
-        const struct aiMeshMorphKey *key = &from->mKeys[k];
-        times[k] = key_time(r, key->mTime);
-        for (unsigned i = 0; i < key->mNumValuesAndWeights; ++i) {
-            if (key->mValues[i] == number)
-                values[k] = key->mWeights[i];
-        }
+    const mote_rig_track track = add_track(r, count, 1, &times, &values);
+    for (unsigned k = 0, own = 0; k < from->mNumKeys; ++k) {
+        const double *weight = weight_in(&from->mKeys[k], number);
+        if (!weight)
+            continue;
+        times[own] = key_time(r, from->mKeys[k].mTime);
+        values[own++] = *weight;
     }
     return track;
 }
@@ -139,11 +158,15 @@ static void add_morph(clip_reader *r, const struct aiMeshMorphAnim *from)
         *strrchr(name, '*') = '\0';
         node = mote_node_find(r->names, r->rig->nodes_count, name);
     }
-    for (uint32_t t = 0; t < r->rig->targets_count && from->mNumKeys > 0; ++t) {
+    for (uint32_t t = 0; t < r->rig->targets_count; ++t) {
         bool *taken = &r->taken[r->rig->nodes_count + t];
-        if (node == MOTE_RIG_NONE || r->rig->targets[t].node != node || *taken)
+        const uint32_t number = r->rig->targets[t].number;
+        const bool is_moved =
+            node != MOTE_RIG_NONE && r->rig->targets[t].node == node && !*taken;
+        const uint32_t keys = is_moved ? count_weights(from, number) : 0;
+        if (keys == 0)
             continue;
-        const mote_rig_morph made = {t, add_weights(r, from, r->rig->targets[t].number)};
+        const mote_rig_morph made = {t, add_weights(r, from, number, keys)};
         const size_t own = r->rig->morphs_count;
         MOTE_RIG_GROW(r->rig, morphs, 1);
         r->rig->morphs[own] = made;

@@ -149,12 +149,45 @@ TEST(clip_takes_weights_of_the_node_s_targets)
             const double *first = rig.values + rig.morphs[0].weight.value,
                          *second = rig.values + rig.morphs[1].weight.value;
             assert_int_equal(rig.morphs[0].target, 1);
-            assert_true(first[0] == 0.75 && first[1] == 0); /* not named at the later key */
+            /* The later key does not name it, and so is none of its keys. */
+            assert_int_equal(rig.morphs[0].weight.count, 1);
+            assert_int_equal(rig.morphs[1].weight.count, 2);
+            assert_true(first[0] == 0.75);
             assert_true(second[0] == 0.25 && second[1] == 0.5);
             assert_true(rig.clips[0].seconds == 1); /* 25 ticks */
         }
         mote_rig_free(&rig);
     }
+}
+
+/* Keys as of an FBX file: target 0 at 0 and 2 s, target 1 at 0, 1 and 2 s, and none of Arm's
+   target. */
+TEST(clip_interpolates_weights_between_the_keys_that_name_their_target)
+{
+    static const double wanted[][3] = {{0, 1, 0}, {0.5, 1, 0.25}, {1, 1, 0.5}, {2, 1, 0}};
+    unsigned both[2] = {0, 1}, one[1] = {1}, other[1] = {7};
+    double ends[2] = {1, 0}, middle[1] = {0.5};
+    struct aiMeshMorphKey keys[3] = {
+        {.mTime = 0, .mValues = both, .mWeights = ends, .mNumValuesAndWeights = 2},
+        {.mTime = 25, .mValues = one, .mWeights = middle, .mNumValuesAndWeights = 1},
+        {.mTime = 50, .mValues = both, .mWeights = ends, .mNumValuesAndWeights = 2}};
+    struct aiMeshMorphKey none = {
+        .mTime = 0, .mValues = other, .mWeights = middle, .mNumValuesAndWeights = 1};
+    struct aiMeshMorphAnim made[2] = {{.mNumKeys = 3, .mKeys = keys},
+                                      {.mNumKeys = 1, .mKeys = &none}};
+    struct aiMeshMorphAnim *channels[] = {&made[0], &made[1]};
+    struct aiAnimation animation = {.mNumMorphMeshChannels = 2, .mMorphMeshChannels = channels};
+    mote_rig rig;
+    set_name(&made[0].mName, "Head*0");
+    set_name(&made[1].mName, "Arm*0");
+    read_clip(&animation, &rig);
+    assert_int_equal(rig.morphs_count, 2);
+    for (size_t i = 0; i < ROWS_OF(wanted); ++i) {
+        double weights[3];
+        mote_rig_morph_weights(&rig, 0, wanted[i][0], weights);
+        assert_true(weights[1] == wanted[i][1] && weights[2] == wanted[i][2]);
+    }
+    mote_rig_free(&rig);
 }
 
 static mote_status add(struct aiMesh *mesh, mote_soup *soup)
