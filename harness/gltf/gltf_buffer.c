@@ -164,8 +164,9 @@ static mote_status find_elements(mote_gltf *gltf, const char *what, const json_t
                                whole_or_none(view, "byteOffset")};
     const int64_t buffer = mote_gltf_whole(view, "buffer");
     const uint64_t size = width * component_size(component);
-    if (!view || count < 1 || size == 0 || (component == MOTE_GLTF_FLOATS) != floats ||
-        json_object_get(accessor, "sparse"))
+    if (json_object_get(accessor, "sparse"))
+        return wrong(gltf, what, floats, "that are sparse");
+    if (!view || count < 1 || size == 0 || (component == MOTE_GLTF_FLOATS) != floats)
         return wrong(gltf, what, floats,
                      floats ? "that are no floats" : "that are no whole numbers");
     if (stride < 0 || offset[0] < 0 || offset[1] < 0)

@@ -1,5 +1,5 @@
-/* The parts of a glTF file's animations that assimp leaves out: step interpolation, and the
-   tangents of cubic keys (glTF 2.0, section 3.11). */
+/* The parts of a glTF file's animations that assimp leaves out: step interpolation, the
+   tangents of cubic keys (glTF 2.0, section 3.11), and negative weights of morph targets. */
 #include "harness/mesh/character_parts.h"
 
 #include "harness/base/memory.h"
@@ -90,6 +90,29 @@ static mote_status set_cubics(reader *r, const json_t *sampler, const tracks *fo
     return status;
 }
 
+/* assimp takes negative weights for 0. The times of its keys stay: they are those of the file,
+   rounded. */
+static mote_status set_weights(reader *r, const json_t *sampler, const tracks *found)
+{
+    static const char what[] = "keys of weights";
+    mote_gltf_numbers weights = {0};
+    mote_status status =
+        mote_gltf_read(r->gltf, what, mote_gltf_whole(sampler, "output"), 1, true, &weights);
+    for (size_t t = 0; t < found->count && status == MOTE_OK; ++t) {
+        const mote_rig_track *track = found->list[t];
+        const size_t stride = weights.count / track->count;
+        if (stride == 0 || stride * track->count != weights.count)
+            status = mote_fail(MOTE_EINVAL,
+                               "%s: %s that are not equally many for each time; give one for "
+                               "each target",
+                               r->gltf->path, what);
+        for (size_t k = 0; k < track->count && status == MOTE_OK; ++k)
+            r->rig->values[track->value + k] = weights.values[k * stride + t % stride];
+    }
+    free(weights.values);
+    return status;
+}
+
 static mote_status set_channel(reader *r, const json_t *animation, const json_t *channel,
                                const mote_rig_clip *clip)
 {
@@ -97,7 +120,7 @@ static mote_status set_channel(reader *r, const json_t *animation, const json_t 
     const json_t *sampler = mote_gltf_sampler(animation, channel);
     const char *path = json_string_value(json_object_get(target, "path"));
     const char *mode = json_string_value(json_object_get(sampler, "interpolation"));
-    if (!mode || strcmp(mode, "LINEAR") == 0 || !mote_gltf_moves(r->gltf, channel))
+    if (!sampler || !mote_gltf_moves(r->gltf, channel))
         return MOTE_OK;
     const uint32_t node = r->nodes[mote_gltf_whole(target, "node")];
     if (node == MOTE_RIG_NONE)
@@ -105,10 +128,12 @@ static mote_status set_channel(reader *r, const json_t *animation, const json_t 
     tracks found;
     mote_status status = MOTE_OK;
     find_tracks(r, clip, node, path, &found);
-    for (size_t t = 0; t < found.count && strcmp(mode, "STEP") == 0; ++t)
+    for (size_t t = 0; t < found.count && mode && strcmp(mode, "STEP") == 0; ++t)
         found.list[t]->mode = MOTE_TRACK_STEP;
-    if (found.count > 0 && strcmp(mode, "CUBICSPLINE") == 0)
+    if (found.count > 0 && mode && strcmp(mode, "CUBICSPLINE") == 0)
         status = set_cubics(r, sampler, &found, path);
+    else if (found.count > 0 && strcmp(path, "weights") == 0)
+        status = set_weights(r, sampler, &found);
     free(found.list);
     return status;
 }

@@ -43,8 +43,9 @@ void mote_character_read_clips(const struct aiScene *scene, const mote_node_name
                                mote_rig *rig);
 
 /* Makes tracks of a rig step or cubic where a glTF file says so; assimp reads all of them as
-   linear. nodes: the rig's number of each node of the file, or MOTE_RIG_NONE. MOTE_EINVAL:
-   cubic keys that cannot be read. */
+   linear. Reads the weights of morph targets, of which assimp makes 0 where they are negative.
+   nodes: the rig's number of each node of the file, or MOTE_RIG_NONE. MOTE_EINVAL: cubic keys
+   or weights that cannot be read. */
 mote_status mote_character_set_gltf_keys(mote_gltf *gltf, const uint32_t *nodes, mote_rig *rig);
 
 /* Normalises weights to a sum of 1, welds vertices at one place that move alike, cuts edges of

@@ -1,4 +1,4 @@
-/* Step and cubic keys of glTF files. */
+/* Step and cubic keys of glTF files, and weights of morph targets. */
 #include "harness/mesh/character.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
@@ -125,6 +125,43 @@ TEST(mote_character_of_gltf_has_steps)
     assert_true(pose.matrices[0].m[0][3] == (double)b.places[0][1][0]);
     mote_character_pose_free(&pose);
     mote_character_destroy(c);
+}
+
+/* Linear keys and steps; 1.25 s is half of the way from the second key to the third. */
+TEST(mote_character_of_gltf_has_negative_weights)
+{
+    static const struct {
+        const char *mode;
+        double at_first, between;
+    } rows[] = {{"LINEAR", -0.5, -0.25}, {"STEP", -0.5, -1}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        mote_character *c = NULL;
+        buffer b = make_buffer();
+        b.amounts[0][0] = -0.5F;
+        b.amounts[0][1] = -1;
+        b.amounts[0][2] = 0.5F;
+        test_row("%s", rows[i].mode);
+        write_file(rows[i].mode, KEYS, "a.bin");
+        file_write("a.bin", &b, sizeof b);
+        if (mote_character_import_file("a.gltf", &c, NULL) != MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        mote_character_pose pose = mote_character_pose_create(c);
+        mote_character_pose_set(c, 0, 0, &pose);
+        assert_true(pose.morphs[0] == rows[i].at_first);
+        mote_character_pose_set(c, 0, 1.25, &pose);
+        assert_true(fabs(pose.morphs[0] - rows[i].between) < 1e-6);
+        mote_character_pose_free(&pose);
+        mote_character_destroy(c);
+    }
+}
+
+/* Four weights of one target at three times. */
+TEST(mote_character_of_gltf_with_weights_left_over_is_refused)
+{
+    mote_character *c = NULL;
+    write_file("LINEAR", KEYS + 1, "a.bin");
+    assert_int_equal(mote_character_import_file("a.gltf", &c, NULL), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "a.gltf: keys of weights that are not equally "));
 }
 
 TEST(mote_character_of_gltf_with_bad_cubic_keys_is_refused)
