@@ -247,14 +247,25 @@ static mote_status measure_in_child(void *context, int output)
     return status == MOTE_OK ? mote_child_put(output, &bytes, sizeof bytes) : status;
 }
 
-/* The bytes that are read for a file of so many: with those of the files that a glTF text
+/* Whether a file is glTF, by its first bytes where its name does not say so. */
+static bool is_gltf_file(const char *path)
+{
+    char start[4096]; /* blanks may come first */
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const ssize_t size = file < 0 ? 0 : read(file, start, sizeof start);
+    if (file >= 0)
+        (void)close(file);
+    return mote_gltf_is(path, start, size > 0 ? (size_t)size : 0);
+}
+
+/* The bytes that are read for a file of so many: with those of the files that a glTF file
    names. Nothing else is read of those here, and what is wrong is said later. */
 static uint64_t bytes_read_for(const char *path, size_t bytes)
 {
     char *output = NULL;
     size_t size = 0;
     uint64_t beside = 0;
-    if (mote_name_ends(path, ".gltf") &&
+    if (is_gltf_file(path) &&
         mote_child_run(path, measure_in_child, (void *)(uintptr_t)path, limits_of(bytes),
                        &output, &size) == MOTE_OK &&
         size == sizeof beside)
