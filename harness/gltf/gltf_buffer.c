@@ -116,12 +116,6 @@ mote_status mote_gltf_load(mote_gltf *gltf, size_t buffer, mote_gltf_bytes *byte
     return MOTE_OK;
 }
 
-/* mote_gltf_whole of a member that may be left out: then 0. */
-static int64_t whole_or_none(const json_t *object, const char *key)
-{
-    return json_object_get(object, key) ? mote_gltf_whole(object, key) : 0;
-}
-
 /* Where the elements of an accessor are in its buffer. */
 typedef struct elements {
     uint64_t count, begin, step, size;
@@ -159,9 +153,9 @@ static mote_status find_elements(mote_gltf *gltf, const char *what, const json_t
         mote_gltf_entry(gltf, "bufferViews", mote_gltf_whole(accessor, "bufferView"));
     const int64_t count = mote_gltf_whole(accessor, "count");
     const int64_t component = mote_gltf_whole(accessor, "componentType");
-    const int64_t stride = whole_or_none(view, "byteStride");
-    const int64_t offset[2] = {whole_or_none(accessor, "byteOffset"),
-                               whole_or_none(view, "byteOffset")};
+    const int64_t stride = mote_gltf_whole_or_0(view, "byteStride");
+    const int64_t offset[2] = {mote_gltf_whole_or_0(accessor, "byteOffset"),
+                               mote_gltf_whole_or_0(view, "byteOffset")};
     const int64_t buffer = mote_gltf_whole(view, "buffer");
     const uint64_t size = width * component_size(component);
     if (json_object_get(accessor, "sparse"))

@@ -49,6 +49,69 @@ static const char *component_name(int64_t component)
     }
 }
 
+/* The bytes of an element of an accessor, or 0 where its type is unknown. */
+static int64_t element_size(const json_t *accessor)
+{
+    static const struct {
+        const char *type;
+        int64_t numbers;
+    } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+                 {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
+    static const int64_t bytes[] = {1, 1, 2, 2, 0, 4, 4}; /* of components from 5120 on */
+    const char *type = json_string_value(json_object_get(accessor, "type"));
+    const int64_t component = mote_gltf_whole(accessor, "componentType") - 5120;
+    if (component < 0 || component >= (int64_t)(sizeof bytes / sizeof bytes[0]))
+        return 0;
+    for (size_t t = 0; type && t < sizeof types / sizeof types[0]; ++t) {
+        if (strcmp(type, types[t].type) == 0)
+            return types[t].numbers * bytes[component];
+    }
+    return 0;
+}
+
+/* Whether `count` elements of `size` bytes, `step` apart, lie in so many bytes. */
+static bool lie_within(int64_t bytes, int64_t offset, int64_t count, int64_t size, int64_t step)
+{
+    return offset >= 0 && bytes >= size && offset <= bytes - size &&
+           count - 1 <= (bytes - size - offset) / step;
+}
+
+/* Checks that an accessor lies in its view, and that in its buffer. assimp looks at offset and
+   length one by one, and so reads what follows. Of one that is sparse it reads the elements of
+   its view as if they had no stride. */
+static mote_status check_bounds(const checker *c, const json_t *accessor)
+{
+    const int64_t index = mote_gltf_whole(accessor, "bufferView");
+    const json_t *view = mote_gltf_entry(c->gltf, "bufferViews", index);
+    const int64_t buffer = mote_gltf_whole(view, "buffer");
+    const int64_t count = mote_gltf_whole(accessor, "count"), size = element_size(accessor);
+    const int64_t stride = mote_gltf_whole(view, "byteStride"),
+                  step = stride > 0 ? stride : size;
+    const int64_t length = mote_gltf_whole(view, "byteLength");
+    const int64_t bytes =
+        mote_gltf_whole(mote_gltf_entry(c->gltf, "buffers", buffer), "byteLength");
+    if (!view || size == 0 || count < 1)
+        return MOTE_OK;
+    if (json_object_get(accessor, "sparse") && step != size)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: %s[%zu]: sparse, over bufferViews[%lld] with a byteStride, which "
+                         "assimp ignores; write it without one of them",
+                         c->gltf->path, c->list, c->number, (long long)index);
+    if (!lie_within(length, mote_gltf_whole_or_0(accessor, "byteOffset"), count, size, step))
+        return mote_fail(MOTE_EINVAL,
+                         "%s: %s[%zu]: its %lld elements do not lie within the byteLength of "
+                         "bufferViews[%lld]; give fewer, or all of their bytes",
+                         c->gltf->path, c->list, c->number, (long long)count, (long long)index);
+    if (bytes > 0 &&
+        !lie_within(bytes, mote_gltf_whole_or_0(view, "byteOffset"), 1, length, length))
+        return mote_fail(MOTE_EINVAL,
+                         "%s: %s[%zu]: bufferViews[%lld] does not lie within the byteLength of "
+                         "buffers[%lld]; give all of its bytes",
+                         c->gltf->path, c->list, c->number, (long long)index,
+                         (long long)buffer);
+    return MOTE_OK;
+}
+
 /* The accessor that a member names, or NULL. */
 static const json_t *accessor_of(const checker *c, const json_t *object, const char *member)
 {
@@ -120,6 +183,21 @@ static mote_status check_positions(const checker *c, const json_t *primitive)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
     return check_numbers(c, accessor_of(c, attributes, "POSITION"), "POSITION", "VEC3", 0);
+}
+
+/* A mesh that does not move is read with its targets, too, and each to the mesh's last vertex.
+ */
+static mote_status check_target_counts(const checker *c, const json_t *primitive)
+{
+    const json_t *targets = json_object_get(primitive, "targets");
+    const json_t *positions =
+        accessor_of(c, json_object_get(primitive, "attributes"), "POSITION");
+    const int64_t vertices = mote_gltf_whole(positions, "count");
+    mote_status status = MOTE_OK;
+    for (size_t t = 0; t < json_array_size(targets) && status == MOTE_OK; ++t)
+        status = check_shape(c, accessor_of(c, json_array_get(targets, t), "POSITION"),
+                             "a target's POSITION", NULL, vertices);
+    return status;
 }
 
 /* Checks what moves the vertices of a primitive whose positions have passed. */
@@ -215,7 +293,9 @@ static mote_status check_list(const mote_gltf *gltf, const check *which)
 mote_status mote_gltf_check(const mote_gltf *gltf, bool moves)
 {
     static const check checks[] = {
+        {"accessors", NULL, check_bounds, false},
         {"meshes", "primitives", check_positions, false},
+        {"meshes", "primitives", check_target_counts, false},
         {"meshes", "primitives", check_movers, true},
         {"skins", NULL, check_skin, true},
         {"nodes", NULL, check_node, true},

@@ -114,6 +114,11 @@ int64_t mote_gltf_whole(const json_t *object, const char *key)
                : -1;
 }
 
+int64_t mote_gltf_whole_or_0(const json_t *object, const char *key)
+{
+    return json_object_get(object, key) ? mote_gltf_whole(object, key) : 0;
+}
+
 char *mote_gltf_node_name(const mote_gltf *gltf, size_t node)
 {
     const json_t *entry = mote_gltf_entry(gltf, "nodes", (int64_t)node);

@@ -48,6 +48,9 @@ const json_t *mote_gltf_entry(const mote_gltf *gltf, const char *list, int64_t i
 /* The value of a member that is a whole number of at least 0, 16.0 too, otherwise -1. */
 int64_t mote_gltf_whole(const json_t *object, const char *key);
 
+/* The same of a member that may be left out, and then is 0. */
+int64_t mote_gltf_whole_or_0(const json_t *object, const char *key);
+
 /* The name of a node; "nodes[3]" if it has none. The caller frees it. */
 char *mote_gltf_node_name(const mote_gltf *gltf, size_t node);
 
@@ -59,8 +62,9 @@ bool mote_gltf_moves(const mote_gltf *gltf, const json_t *channel);
 const json_t *mote_gltf_sampler(const json_t *animation, const json_t *channel);
 
 /* Checks for what assimp silently reads wrongly: it takes numbers of any type for 32-bit
-   floats, and finds none where they are compressed. moves: checks bones, morph targets and
-   clips, too. MOTE_EINVAL with the entry and what would be right. */
+   floats, finds none where they are compressed, and reads beyond the end of views. moves:
+   checks bones, morph targets and clips, too. MOTE_EINVAL with the entry and what would be
+   right. */
 mote_status mote_gltf_check(const mote_gltf *gltf, bool moves);
 
 /* Checks that the numbers of joints in vertices are those of joints, and that weights are

@@ -33,6 +33,21 @@
     "," SHIFTS "," JOINTS "],\"bufferViews\":[{\"buffer\":0,\"byteLength\":236}],"             \
     "\"buffers\":[{\"uri\":\"c.bin\",\"byteLength\":236}]}"
 
+#define VIEWS "\"bufferViews\":[{\"buffer\":0,\"byteLength\":236}"
+#define NUMBERS                                                                                \
+    POSITION "," WEIGHTS "," BINDS "," TIMES "," KEYS "," SHIFTS "," JOINTS "]," VIEWS
+#define SPARSE(stride)                                                                         \
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"  \
+    "\"max\":[1,1,0],\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"byteOffset\":"    \
+    "224,"                                                                                     \
+    "\"componentType\":5121},\"values\":{\"bufferView\":0}}}," WEIGHTS "," BINDS "," TIMES     \
+    "," KEYS "," SHIFTS "," JOINTS "]," VIEWS                                                  \
+    ",{\"buffer\":0,\"byteLength\":48,\"byteStride\":" stride "}"
+#define BEYOND(entry, count)                                                                   \
+    "c.gltf: accessors[" entry "]: its " count                                                 \
+    " elements do not lie within the byteLength of "                                           \
+    "bufferViews[0]; give"
+
 #define INTEGERS(entry, what, bits)                                                            \
     "c.gltf: " entry ": " what " has " bits " integers, which assimp takes for floats; write " \
     "32-bit floats"
@@ -87,6 +102,26 @@ static const struct {
     {KEYS, ACCESSOR(156, 5120, 2, VEC4), "",
      INTEGERS("animations[0]", "a sampler's output", "8-bit")},
     {KEYS, ACCESSOR(156, 5126, 1, VEC4), "", SHAPE("animations[0]", "a sampler's output", "2")},
+    {SHIFTS, ACCESSOR(188, 5126, 2, VEC3), SHAPE("meshes[0]", "a target's POSITION", "3"),
+     NULL},
+    {POSITION, ACCESSOR(204, 5126, 3, VEC3), BEYOND("0", "3"), NULL},
+    {POSITION, ACCESSOR(9223372036854775807, 5126, 3, VEC3), BEYOND("0", "3"), NULL},
+    {KEYS, ACCESSOR(156, 5126, 9223372036854775807, VEC4), BEYOND("4", "9223372036854775807"),
+     NULL},
+    {VIEWS, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":235}", BEYOND("6", "3"), NULL},
+    {VIEWS, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":236,\"byteStride\":100}",
+     BEYOND("1", "3"), NULL},
+    {VIEWS, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":237}",
+     "c.gltf: accessors[0]: bufferViews[0] does not lie within the byteLength of buffers[0]",
+     NULL},
+    {VIEWS, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":236,\"byteOffset\":1}",
+     "c.gltf: accessors[0]: bufferViews[0] does not lie within the byteLength of buffers[0]",
+     NULL},
+    {NUMBERS, SPARSE("12"), "", NULL},
+    {NUMBERS, SPARSE("16"),
+     "c.gltf: accessors[0]: sparse, over bufferViews[1] with a byteStride, which assimp "
+     "ignores",
+     NULL},
     /* Such a channel is ignored, and its numbers may be any. */
     {CHANNEL "}}],\"samplers\":[{\"input\":3,\"output\":4}",
      "\"path\":\"pointer\"}}],\"samplers\":[{\"input\":3,\"output\":6}", "", NULL},
