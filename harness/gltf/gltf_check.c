@@ -11,7 +11,8 @@ typedef struct checker {
     size_t number;
 } checker;
 
-/* Extensions without which a mesh has other numbers, or none. Draco, if built in, is read. */
+/* Extensions without which a mesh has other numbers, or none. For Draco, which is
+   read if built in, see check_draco. */
 static mote_status check_extensions(const mote_gltf *gltf)
 {
     static const struct {
@@ -185,6 +186,21 @@ static mote_status check_positions(const checker *c, const json_t *primitive)
     return check_numbers(c, accessor_of(c, attributes, "POSITION"), "POSITION", "VEC3", 0);
 }
 
+/* assimp reads the indices of Draco as others than those of 32 bits, and mixes up vertices
+   where the file has them uncompressed, too. */
+static mote_status check_draco(const checker *c, const json_t *primitive)
+{
+    static const char name[] = "KHR_draco_mesh_compression";
+    const json_t *indices = accessor_of(c, primitive, "indices");
+    if (!json_object_get(json_object_get(primitive, "extensions"), name) ||
+        mote_gltf_whole(indices, "componentType") != 5125)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "%s: %s[%zu]: %s with indices of 32 bits, which assimp misreads; "
+                     "uncompress it, as gltf-transform dequantize does",
+                     c->gltf->path, c->list, c->number, name);
+}
+
 /* A mesh that does not move is read with its targets, too, and each to the mesh's last vertex.
  */
 static mote_status check_target_counts(const checker *c, const json_t *primitive)
@@ -294,6 +310,7 @@ mote_status mote_gltf_check(const mote_gltf *gltf, bool moves)
 {
     static const check checks[] = {
         {"accessors", NULL, check_bounds, false},
+        {"meshes", "primitives", check_draco, false},
         {"meshes", "primitives", check_positions, false},
         {"meshes", "primitives", check_target_counts, false},
         {"meshes", "primitives", check_movers, true},

@@ -191,6 +191,36 @@ TEST(gltf_of_other_members_passes)
     }
 }
 
+/* Such a file may require Draco or only use it, with the numbers beside it. */
+TEST(gltf_of_draco_with_indices_of_32_bits_is_refused)
+{
+    static const char says[] =
+        "c.gltf: meshes[1]: KHR_draco_mesh_compression with indices of 32 bits, which assimp "
+        "misreads; uncompress it, as gltf-transform dequantize does";
+    static const struct {
+        const char *extensions;
+        int component;
+        const char *says;
+    } primitives[] = {
+        {"\"KHR_draco_mesh_compression\":{}", 5125, says},
+        {"\"KHR_draco_mesh_compression\":{}", 5123, ""},
+        {"\"KHR_materials_variants\":{}", 5125, ""},
+    };
+    for (size_t r = 0; r < ROWS_OF(primitives); ++r) {
+        char *text = mote_format(
+            "{\"meshes\":[{},{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,"
+            "\"extensions\":{%s}}]}],\"accessors\":[{\"componentType\":5126,\"count\":3,"
+            "\"type\":\"VEC3\"},{\"componentType\":%d,\"count\":3,\"type\":\"SCALAR\"}]}",
+            primitives[r].extensions, primitives[r].component);
+        mote_gltf gltf;
+        test_row("%zu", r);
+        assert_int_equal(mote_gltf_open("c.gltf", text, strlen(text), &gltf), MOTE_OK);
+        check(&gltf, false, primitives[r].says);
+        mote_gltf_close(&gltf);
+        free(text);
+    }
+}
+
 /* The bytes of the accessors: a triangle, all of whose weights are the bone's, which turns. */
 static void write_numbers(void)
 {
