@@ -11,10 +11,10 @@ const EXACTNESS = {
     inexact: ["not exact", (row) => !row.right],
 };
 
-// Whether a row is as exact, and takes as little memory, as chosen.
+// Whether a row is as exact, and takes as little memory, as chosen: how much a crashed row takes is not known.
 function passes(row, { exactness, memory }) {
     return (exactness === "any" || (row.status === "ok" && EXACTNESS[exactness][1](row))) &&
-        (!memory || row.heap_peak_bytes <= memory);
+        (!memory || (isNumber(row.heap_peak_bytes) && row.heap_peak_bytes <= memory));
 }
 
 // Wrong contacts are marked.
