@@ -215,7 +215,7 @@ function resultsSection(data) {
     const methods = methodsOf(data);
     const blocks = blocksOf(data, choice);
     const floor = isNumber(data.noise_floor)
-        ? [" Measured twice, a row differs from itself by up to ", el("a", { href: "summary.json" },
+        ? [" Measured twice, nine rows in ten differ from themselves by at most ", el("a", { href: "summary.json" },
             `${(100 * data.noise_floor).toFixed(1)}${NARROW}%`), " (the noise floor of this run)."] : [];
     return section("results", "Results",
         el("p", {}, "A row is one configuration, the fastest first. Times are medians over frames and replicates, with " +

@@ -362,6 +362,12 @@ async function testOthers(browser) {
         truth((await page.locator("#replay-origin").textContent()).includes("that of all 4"), "not said");
         await page.close();
     });
+    await check("the noise floor is said to hold of nine rows in ten", async () => {
+        const page = await open(browser, `${work}/several`);
+        const text = await page.locator("section[aria-labelledby=results]").textContent();
+        truth(/nine rows in ten differ from themselves by at most [0-9.]+.% \(the noise floor/.test(text), text);
+        await page.close();
+    });
     await check("many bodies are told by their number and shapes, their times are of a frame", async () => {
         const page = await open(browser, `${work}/letters`);
         const text = await page.locator(".block").textContent();
