@@ -3,6 +3,10 @@
 // choices above the tables apply to all of them.
 
 const COLOURS = 10; // classes c0 .. c9 of report.css
+const SHAPES = ["circle", "square", "diamond"]; // of ten methods each
+
+// The classes of the mark of the k-th method.
+const markOf = (k) => `c${k % COLOURS} ${SHAPES[Math.floor(k / COLOURS) % SHAPES.length]}`;
 
 const EXACTNESS = {
     any: ["any", () => true],
@@ -21,7 +25,7 @@ function passes(row, { exactness, memory }) {
 const isOfContacts = (column) => column.group === "contacts";
 
 class Block {
-    constructor(data, block, choice, colourOf) {
+    constructor(data, block, choice, markOfRow) {
         this.data = data;
         this.choice = choice;
         this.rows = data.rows.slice(block.first, block.end);
@@ -29,7 +33,7 @@ class Block {
         this.body = el("tbody");
         this.lines = new Map();
         this.heads = [];
-        this.front = new Front(data, this.rows, colourOf, (row, entered) =>
+        this.front = new Front(data, this.rows, markOfRow, (row, entered) =>
             this.lines.get(row)?.classList.toggle("pointed", entered));
         this.count = el("p", { class: "count" });
         this.wide = el("div", { class: "wide results", tabindex: 0, role: "region",
@@ -201,12 +205,12 @@ function choices(methods, choice, changed, more = []) {
 const methodsOf = (data) => [...new Set(data.rows.map((row) => textOf(row.method)))].sort();
 
 const coloursLegend = (methods) => el("p", { class: "legend colours" }, methods.map((method, k) =>
-    el("span", {}, el("span", { class: `swatch c${k % COLOURS}` }), method)));
+    el("span", {}, el("span", { class: `swatch ${markOf(k)}` }), method)));
 
 function blocksOf(data, choice) {
     const methods = methodsOf(data);
-    const colourOf = (row) => `c${methods.indexOf(textOf(row.method)) % COLOURS}`;
-    return data.blocks.map((block) => new Block(data, block, choice, colourOf));
+    const markOfRow = (row) => markOf(methods.indexOf(textOf(row.method)));
+    return data.blocks.map((block) => new Block(data, block, choice, markOfRow));
 }
 
 // The section of results.

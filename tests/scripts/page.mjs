@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { testSite } from "./page_site.mjs";
-import { testPoor, testTables } from "./page_tables.mjs";
+import { testMarks, testPoor, testTables } from "./page_tables.mjs";
 
 const { chromium } = createRequire(new URL("../../plots/page/package.json", import.meta.url))("playwright-core");
 const [mote, bundle, executablePath, work] = process.argv.slice(2).map((path) => resolve(path));
@@ -408,6 +408,7 @@ for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
 }
 await characters.close();
 await testSite(browser, tools, open, program, work);
+await testMarks(browser, tools, work);
 await testPoor(browser, tools, run, work, bundle);
 await browser.close();
 console.log(`${passed} passed, ${failed} failed`);

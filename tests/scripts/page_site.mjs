@@ -112,8 +112,8 @@ async function testFilters(page, { check, equal, truth }, runs) {
     });
     await check("pointing at a front shows method, parameters, figures and interval", async () => {
         await page.locator("#choice-rows").selectOption("all");
-        const block = page.locator(".block:not([hidden])").filter({ has: page.locator("circle.point") }).first();
-        await block.locator("circle.point").first().hover();
+        const block = page.locator(".block:not([hidden])").filter({ has: page.locator(".point") }).first();
+        await block.locator(".point").first().hover();
         const tip = block.locator(".tip:visible");
         const label = await tip.locator("strong").textContent();
         const row = all.find((other) => other.label === label);
