@@ -24,16 +24,23 @@ function pointLines(row, columns) {
 const parametersText = (row) =>
     Object.entries(row.parameters ?? {}).map(([key, value]) => `${key} ${value}`).join(", ");
 
+// The element of a point, by its shape; all shapes cover about the same area.
+function outline(mark, x, y) {
+    if (!/square|diamond/.test(mark)) return { name: "circle", cx: x, cy: y, r: 6 };
+    const square = { name: "rect", x: x - 5.3, y: y - 5.3, width: 10.6, height: 10.6 };
+    return mark.includes("diamond") ? { ...square, transform: `rotate(45 ${x} ${y})` } : square;
+}
+
 class Front {
-    // data: the page's. colourOf(row): a class name. onPoint(row, entered): called when the pointer
-    // moves.
-    constructor(data, rows, colourOf, onPoint) {
+    // data: the page's. markOf(row): the classes of its colour and shape. onPoint(row, entered): called
+    // when the pointer moves.
+    constructor(data, rows, markOf, onPoint) {
         this.columns = data.columns;
         this.timeOf = (row) => valueAt(row, data.time.path);
         this.errorOf = (row) => valueAt(row, data.error.path);
         this.rows = rows.filter((row) =>
             row.status === "ok" && isNumber(this.errorOf(row)) && this.timeOf(row) > 0);
-        this.colourOf = colourOf;
+        this.markOf = markOf;
         this.onPoint = onPoint;
         this.tip = el("div", { class: "tip", role: "status", hidden: true });
         this.canvas = el("div", { class: "front" });
@@ -124,8 +131,10 @@ class Front {
     point(row) {
         const [x, y] = [this.x(this.timeOf(row) / 1e3), this.y(this.errorOf(row))];
         const text = [row.label, ...pointLines(row, this.columns)].join("; ");
-        const point = svg("circle", {
-            class: `point ${this.colourOf(row)}${row.accounting === "given" ? " given" : ""}`, cx: x, cy: y, r: 6, tabindex: 0, role: "img", "aria-label": text,
+        const mark = this.markOf(row);
+        const { name, ...place } = outline(mark, x, y);
+        const point = svg(name, {
+            class: `point ${mark}${row.accounting === "given" ? " given" : ""}`, ...place, tabindex: 0, role: "img", "aria-label": text,
         });
         const enter = () => this.enter(row, x, y);
         const leave = () => this.leave(row);

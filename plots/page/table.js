@@ -3,6 +3,10 @@
 // choices above the tables apply to all of them.
 
 const COLOURS = 10; // classes c0 .. c9 of report.css
+const SHAPES = ["circle", "square", "diamond"]; // of ten methods each
+
+// The classes of the mark of the k-th method.
+const markOf = (k) => `c${k % COLOURS} ${SHAPES[Math.floor(k / COLOURS) % SHAPES.length]}`;
 
 const EXACTNESS = {
     any: ["any", () => true],
@@ -11,17 +15,17 @@ const EXACTNESS = {
     inexact: ["not exact", (row) => !row.right],
 };
 
-// Whether a row is as exact, and takes as little memory, as chosen.
+// Whether a row is as exact, and takes as little memory, as chosen: how much a crashed row takes is not known.
 function passes(row, { exactness, memory }) {
     return (exactness === "any" || (row.status === "ok" && EXACTNESS[exactness][1](row))) &&
-        (!memory || row.heap_peak_bytes <= memory);
+        (!memory || (isNumber(row.heap_peak_bytes) && row.heap_peak_bytes <= memory));
 }
 
 // Wrong contacts are marked.
 const isOfContacts = (column) => column.group === "contacts";
 
 class Block {
-    constructor(data, block, choice, colourOf) {
+    constructor(data, block, choice, markOfRow) {
         this.data = data;
         this.choice = choice;
         this.rows = data.rows.slice(block.first, block.end);
@@ -29,7 +33,7 @@ class Block {
         this.body = el("tbody");
         this.lines = new Map();
         this.heads = [];
-        this.front = new Front(data, this.rows, colourOf, (row, entered) =>
+        this.front = new Front(data, this.rows, markOfRow, (row, entered) =>
             this.lines.get(row)?.classList.toggle("pointed", entered));
         this.count = el("p", { class: "count" });
         this.wide = el("div", { class: "wide results", tabindex: 0, role: "region",
@@ -201,12 +205,12 @@ function choices(methods, choice, changed, more = []) {
 const methodsOf = (data) => [...new Set(data.rows.map((row) => textOf(row.method)))].sort();
 
 const coloursLegend = (methods) => el("p", { class: "legend colours" }, methods.map((method, k) =>
-    el("span", {}, el("span", { class: `swatch c${k % COLOURS}` }), method)));
+    el("span", {}, el("span", { class: `swatch ${markOf(k)}` }), method)));
 
 function blocksOf(data, choice) {
     const methods = methodsOf(data);
-    const colourOf = (row) => `c${methods.indexOf(textOf(row.method)) % COLOURS}`;
-    return data.blocks.map((block) => new Block(data, block, choice, colourOf));
+    const markOfRow = (row) => markOf(methods.indexOf(textOf(row.method)));
+    return data.blocks.map((block) => new Block(data, block, choice, markOfRow));
 }
 
 // The section of results.
@@ -215,7 +219,7 @@ function resultsSection(data) {
     const methods = methodsOf(data);
     const blocks = blocksOf(data, choice);
     const floor = isNumber(data.noise_floor)
-        ? [" Measured twice, a row differs from itself by up to ", el("a", { href: "summary.json" },
+        ? [" Measured twice, nine rows in ten differ from themselves by at most ", el("a", { href: "summary.json" },
             `${(100 * data.noise_floor).toFixed(1)}${NARROW}%`), " (the noise floor of this run)."] : [];
     return section("results", "Results",
         el("p", {}, "A row is one configuration, the fastest first. Times are medians over frames and replicates, with " +

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { testSite } from "./page_site.mjs";
-import { testPoor, testTables } from "./page_tables.mjs";
+import { testMarks, testPoor, testTables } from "./page_tables.mjs";
 
 const { chromium } = createRequire(new URL("../../plots/page/package.json", import.meta.url))("playwright-core");
 const [mote, bundle, executablePath, work] = process.argv.slice(2).map((path) => resolve(path));
@@ -362,6 +362,12 @@ async function testOthers(browser) {
         truth((await page.locator("#replay-origin").textContent()).includes("that of all 4"), "not said");
         await page.close();
     });
+    await check("the noise floor is said to hold of nine rows in ten", async () => {
+        const page = await open(browser, `${work}/several`);
+        const text = await page.locator("section[aria-labelledby=results]").textContent();
+        truth(/nine rows in ten differ from themselves by at most [0-9.]+.% \(the noise floor/.test(text), text);
+        await page.close();
+    });
     await check("many bodies are told by their number and shapes, their times are of a frame", async () => {
         const page = await open(browser, `${work}/letters`);
         const text = await page.locator(".block").textContent();
@@ -402,6 +408,7 @@ for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
 }
 await characters.close();
 await testSite(browser, tools, open, program, work);
+await testMarks(browser, tools, work);
 await testPoor(browser, tools, run, work, bundle);
 await browser.close();
 console.log(`${passed} passed, ${failed} failed`);

@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 const NARROW = "\u202f";
 const rowsOf = (directory) => JSON.parse(readFileSync(`${directory}/summary.json`, "utf8")).rows;
 
-// A copy of a run as if measured on another machine, a day later.
+// A copy of a run as if measured on another machine, a day later, with a row that crashed.
 function makeOther(run, directory) {
     rmSync(directory, { recursive: true, force: true });
     mkdirSync(directory, { recursive: true });
@@ -14,6 +14,9 @@ function makeOther(run, directory) {
         row.machine = "another machine";
         row.total_ns.median *= 0.5;
     }
+    const [row] = summary.rows.filter(({ method }) => method === "particle-paper");
+    summary.rows.push({ ...row, label: "particle-paper:n=9", parameters: { ...row.parameters, n: 9 }, status: "crashed",
+        reason: "signal 11", heap_peak_bytes: null });
     writeFileSync(`${directory}/summary.json`, JSON.stringify(summary));
     const manifest = readFileSync(`${run}/manifest.json`, "utf8").replace(/("started": ")[^T]*T/g, "$12031-05-06T");
     writeFileSync(`${directory}/manifest.json`, manifest);
@@ -90,7 +93,12 @@ async function testFilters(page, { check, equal, truth }, runs) {
         await page.locator("#choice-memory").selectOption("1e5");
         const small = new Set(passing(all).filter((row) => row.ask === "distance" && row.heap_peak_bytes <= 1e5).map((row) => row.method));
         equal(await lines(page, "ranking"), Math.max(1, small.size), "methods of little memory");
+        await page.locator("#choice-rows").selectOption("all");
+        const crashed = page.locator(".block:not([hidden]) td.ended", { hasText: "crashed" });
+        equal(await crashed.count(), 0, "rows of unknown memory");
         await page.locator("#choice-memory").selectOption("");
+        equal(await crashed.count(), 1, "rows that crashed");
+        await page.locator("#choice-rows").selectOption("one");
         equal(await lines(page, "ranking"), before, "all again");
         const [total, asks] = [await page.locator(".block").count(), await page.locator("#choice-ask option").count()];
         equal(asks, new Set(all.map((row) => row.ask)).size, "questions");
@@ -104,8 +112,8 @@ async function testFilters(page, { check, equal, truth }, runs) {
     });
     await check("pointing at a front shows method, parameters, figures and interval", async () => {
         await page.locator("#choice-rows").selectOption("all");
-        const block = page.locator(".block:not([hidden])").filter({ has: page.locator("circle.point") }).first();
-        await block.locator("circle.point").first().hover();
+        const block = page.locator(".block:not([hidden])").filter({ has: page.locator(".point") }).first();
+        await block.locator(".point").first().hover();
         const tip = block.locator(".tip:visible");
         const label = await tip.locator("strong").textContent();
         const row = all.find((other) => other.label === label);

@@ -134,9 +134,9 @@ async function testFront(page, { check, equal, truth }, run) {
     const ww = rowsOf(run, "ww");
     const block = page.locator(".block").nth(await blockOf(page, "ww"));
     const tip = block.locator(".tip");
-    const point = (label) => block.locator(`circle[aria-label^="${label};"]`);
+    const point = (label) => block.locator(`.point[aria-label^="${label};"]`);
     await check("the front has a point for every row with an error", async () => {
-        equal(await block.locator("circle.point").count(), ww.filter((row) => row.error.p99 !== null).length, "points");
+        equal(await block.locator(".point").count(), ww.filter((row) => row.error.p99 !== null).length, "points");
     });
     await check("a point tells method, parameters and figures under the pointer", async () => {
         const row = ww.find((other) => other.method === "particle-paper" && other.parameters.n === 5);
@@ -236,6 +236,41 @@ async function testLinks(page, { check, truth }, run) {
         truth((await defects.locator("details pre").count()) > 0, "no code");
         truth(!(await defects.textContent()).includes("`"), "marks of code are left");
     });
+}
+
+// Without --method a run asks about twice as many methods as there are colours.
+export async function testMarks(browser, { check, equal, truth, open, program }, work) {
+    program("run", "ww-1k", "--out", `${work}/marks`, "--frames", "1-3", "--replicates", "1");
+    program("report", `${work}/marks`);
+    const page = await open(browser, `${work}/marks`);
+    const look = (element) => element.evaluate((shown) => {
+        const { backgroundColor, fill, borderRadius, transform } = getComputedStyle(shown);
+        const colour = shown.tagName === "SPAN" ? backgroundColor : fill;
+        const round = shown.tagName === "circle" || borderRadius === "50%";
+        return [colour, round ? "round" : transform === "none" && !shown.hasAttribute("transform") ? "square" : "diamond"].join(" ");
+    });
+    await check("each method has a mark of its own, in the legend as in the front", async () => {
+        const entries = await page.locator(".legend.colours > span").all();
+        const marks = new Map();
+        for (const entry of entries) marks.set(await entry.textContent(), await look(entry.locator(".swatch")));
+        truth(entries.length > 10, `only ${entries.length} methods`);
+        equal(new Set(marks.values()).size, entries.length, "marks");
+        const points = await page.locator(".point:not(.given)").all();
+        truth(points.length > 10, `only ${points.length} points`);
+        for (const point of points) {
+            const method = (await point.getAttribute("aria-label")).split(/[:;]/)[0];
+            equal(await look(point), marks.get(method), method);
+        }
+    });
+    await check("a page of many methods fits 1280 and 400 pixels", async () => {
+        for (const width of [1280, 400]) {
+            await page.setViewportSize({ width, height: 900 });
+            await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth); // fronts are drawn again
+            await page.locator("section[aria-labelledby=results]").screenshot({ path: `${work}/marks-${width}.png` });
+        }
+        equal(page.troubles.join("; "), "", "messages");
+    });
+    await page.close();
 }
 
 export async function testTables(page, tools, run) {
