@@ -21,7 +21,7 @@ typedef struct mote_morph_targets {
 } mote_morph_targets;
 
 /* Morph targets, by vertex. A displacement is a float times the size of its target, a power of
-   two near the longest of the target, in rest axes. */
+   two near the longest of the target, or 0 for one that moves nothing, in rest axes. */
 typedef struct mote_morph {
     uint32_t targets; /* 0: none, and nothing else is set */
     uint32_t most;    /* targets of one vertex, at most */
