@@ -50,6 +50,16 @@ static const char *component_name(int64_t component)
     }
 }
 
+/* The bytes of a component, or 0 where its type is unknown. */
+static int64_t component_size(const json_t *object)
+{
+    static const int64_t bytes[] = {1, 1, 2, 2, 0, 4, 4}; /* of components from 5120 on */
+    const int64_t component = mote_gltf_whole(object, "componentType") - 5120;
+    return component < 0 || component >= (int64_t)(sizeof bytes / sizeof bytes[0])
+               ? 0
+               : bytes[component];
+}
+
 /* The bytes of an element of an accessor, or 0 where its type is unknown. */
 static int64_t element_size(const json_t *accessor)
 {
@@ -58,14 +68,10 @@ static int64_t element_size(const json_t *accessor)
         int64_t numbers;
     } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
                  {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
-    static const int64_t bytes[] = {1, 1, 2, 2, 0, 4, 4}; /* of components from 5120 on */
     const char *type = json_string_value(json_object_get(accessor, "type"));
-    const int64_t component = mote_gltf_whole(accessor, "componentType") - 5120;
-    if (component < 0 || component >= (int64_t)(sizeof bytes / sizeof bytes[0]))
-        return 0;
     for (size_t t = 0; type && t < sizeof types / sizeof types[0]; ++t) {
         if (strcmp(type, types[t].type) == 0)
-            return types[t].numbers * bytes[component];
+            return types[t].numbers * component_size(accessor);
     }
     return 0;
 }
@@ -77,32 +83,34 @@ static bool lie_within(int64_t bytes, int64_t offset, int64_t count, int64_t siz
            count - 1 <= (bytes - size - offset) / step;
 }
 
-/* Checks that an accessor lies in its view, and that in its buffer. assimp looks at offset and
-   length one by one, and so reads what follows. Of one that is sparse it reads the elements of
-   its view as if they had no stride. */
-static mote_status check_bounds(const checker *c, const json_t *accessor)
+/* Elements in a view: of an accessor, or of what one that is sparse replaces. */
+typedef struct elements {
+    const json_t *where; /* its bufferView and byteOffset */
+    const char *what;    /* before "elements" in a message */
+    int64_t count, size;
+    bool packed; /* whatever stride the view has */
+} elements;
+
+/* Checks that elements lie in their view, and that in its buffer. assimp looks at offset and
+   length one by one, and so reads what follows. */
+static mote_status check_elements(const checker *c, elements e)
 {
-    const int64_t index = mote_gltf_whole(accessor, "bufferView");
+    const int64_t index = mote_gltf_whole(e.where, "bufferView");
     const json_t *view = mote_gltf_entry(c->gltf, "bufferViews", index);
     const int64_t buffer = mote_gltf_whole(view, "buffer");
-    const int64_t count = mote_gltf_whole(accessor, "count"), size = element_size(accessor);
-    const int64_t stride = mote_gltf_whole(view, "byteStride"),
-                  step = stride > 0 ? stride : size;
+    const int64_t stride = mote_gltf_whole(view, "byteStride");
     const int64_t length = mote_gltf_whole(view, "byteLength");
     const int64_t bytes =
         mote_gltf_whole(mote_gltf_entry(c->gltf, "buffers", buffer), "byteLength");
-    if (!view || size == 0 || count < 1)
+    if (!view || e.size == 0 || e.count < 1)
         return MOTE_OK;
-    if (json_object_get(accessor, "sparse") && step != size)
+    if (!lie_within(length, mote_gltf_whole_or_0(e.where, "byteOffset"), e.count, e.size,
+                    stride > 0 && !e.packed ? stride : e.size))
         return mote_fail(MOTE_EINVAL,
-                         "%s: %s[%zu]: sparse, over bufferViews[%lld] with a byteStride, which "
-                         "assimp ignores; write it without one of them",
-                         c->gltf->path, c->list, c->number, (long long)index);
-    if (!lie_within(length, mote_gltf_whole_or_0(accessor, "byteOffset"), count, size, step))
-        return mote_fail(MOTE_EINVAL,
-                         "%s: %s[%zu]: its %lld elements do not lie within the byteLength of "
+                         "%s: %s[%zu]: its %lld %selements do not lie within the byteLength of "
                          "bufferViews[%lld]; give fewer, or all of their bytes",
-                         c->gltf->path, c->list, c->number, (long long)count, (long long)index);
+                         c->gltf->path, c->list, c->number, (long long)e.count, e.what,
+                         (long long)index);
     if (bytes > 0 &&
         !lie_within(bytes, mote_gltf_whole_or_0(view, "byteOffset"), 1, length, length))
         return mote_fail(MOTE_EINVAL,
@@ -111,6 +119,35 @@ static mote_status check_bounds(const checker *c, const json_t *accessor)
                          c->gltf->path, c->list, c->number, (long long)index,
                          (long long)buffer);
     return MOTE_OK;
+}
+
+/* Of an accessor that is sparse assimp reads the elements of its view as if they had no stride.
+ */
+static mote_status check_sparse(const checker *c, const json_t *accessor, const json_t *sparse)
+{
+    const int64_t index = mote_gltf_whole(accessor, "bufferView");
+    const json_t *view = mote_gltf_entry(c->gltf, "bufferViews", index);
+    const json_t *indices = json_object_get(sparse, "indices");
+    const int64_t stride = mote_gltf_whole(view, "byteStride"), size = element_size(accessor);
+    const int64_t count = mote_gltf_whole(sparse, "count");
+    if (stride > 0 && stride != size)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: %s[%zu]: sparse, over bufferViews[%lld] with a byteStride, which "
+                         "assimp ignores; write it without one of them",
+                         c->gltf->path, c->list, c->number, (long long)index);
+    const elements indexed = {indices, "sparse ", count, component_size(indices), true};
+    const elements values = {json_object_get(sparse, "values"), "sparse ", count, size, true};
+    const mote_status status = check_elements(c, indexed);
+    return status == MOTE_OK ? check_elements(c, values) : status;
+}
+
+static mote_status check_bounds(const checker *c, const json_t *accessor)
+{
+    const json_t *sparse = json_object_get(accessor, "sparse");
+    const elements own = {accessor, "", mote_gltf_whole(accessor, "count"),
+                          element_size(accessor), false};
+    const mote_status status = sparse ? check_sparse(c, accessor, sparse) : MOTE_OK;
+    return status == MOTE_OK ? check_elements(c, own) : status;
 }
 
 /* The accessor that a member names, or NULL. */
@@ -137,12 +174,12 @@ static mote_status check_shape(const checker *c, const json_t *accessor, const c
                                const char *type, int64_t count)
 {
     const char *own = json_string_value(json_object_get(accessor, "type"));
-    const int64_t elements = mote_gltf_whole(accessor, "count");
-    if (!accessor || (own && (!type || strcmp(own, type) == 0) && elements >= count))
+    const int64_t own_count = mote_gltf_whole(accessor, "count");
+    if (!accessor || (own && (!type || strcmp(own, type) == 0) && own_count >= count))
         return MOTE_OK;
     return mote_fail(
         MOTE_EINVAL, "%s: %s[%zu]: %s has too few elements, or of a wrong type; give %lld%s%s",
-        c->gltf->path, c->list, c->number, what, (long long)(count > 0 ? count : elements),
+        c->gltf->path, c->list, c->number, what, (long long)(count > 0 ? count : own_count),
         type ? " of " : "", type ? type : "");
 }
 

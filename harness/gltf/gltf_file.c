@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static bool is_binary(const char *data, size_t size)
 {
@@ -15,12 +14,11 @@ static bool is_binary(const char *data, size_t size)
 
 bool mote_gltf_is(const char *path, const char *data, size_t size)
 {
-    const char *ending = strrchr(path, '.');
     size_t at = 0;
     while (at < size && data[at] && strchr(" \t\r\n", data[at]))
         ++at;
     return is_binary(data, size) || (at < size && data[at] == '{') ||
-           (ending && (strcasecmp(ending, ".gltf") == 0 || strcasecmp(ending, ".glb") == 0));
+           mote_name_ends(path, ".gltf") || mote_name_ends(path, ".glb");
 }
 
 static uint32_t word(const char *bytes)
@@ -63,6 +61,28 @@ static mote_status find_text(const char *path, const char *data, size_t size, mo
     return MOTE_OK;
 }
 
+/* Writes whole numbers without a decimal point, all the way down: assimp takes 36.0 for no
+   number where it expects a whole one, and uses 0. */
+static json_t *without_points(json_t *value)
+{
+    const double real = json_real_value(value);
+    if (json_is_real(value) && fabs(real) <= 0x1p53 && real == floor(real) &&
+        !(real == 0 && signbit(real)))
+        return json_integer((json_int_t)real);
+    const char *key;
+    size_t index;
+    json_t *part;
+    json_object_foreach(value, key, part)
+    {
+        (void)json_object_set_new(value, key, without_points(part));
+    }
+    json_array_foreach(value, index, part)
+    {
+        (void)json_array_set_new(value, index, without_points(part));
+    }
+    return json_incref(value);
+}
+
 mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote_gltf *gltf)
 {
     const char *text;
@@ -75,6 +95,9 @@ mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote
     gltf->root = json_loadb(text, length, 0, &error);
     if (!gltf->root)
         return mote_fail(MOTE_EINVAL, "%s:%d: %s; write JSON", path, error.line, error.text);
+    json_t *as_read = gltf->root;
+    gltf->root = without_points(as_read);
+    json_decref(as_read);
     gltf->path = mote_duplicate(path);
     gltf->buffer_count = json_array_size(json_object_get(gltf->root, "buffers")) + 1;
     gltf->buffers = mote_allocate(gltf->buffer_count, sizeof *gltf->buffers);
@@ -106,12 +129,8 @@ const json_t *mote_gltf_entry(const mote_gltf *gltf, const char *list, int64_t i
 int64_t mote_gltf_whole(const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
-    const double real = json_real_value(value);
-    if (json_is_integer(value))
-        return json_integer_value(value) < 0 ? -1 : json_integer_value(value);
-    return json_is_real(value) && real >= 0 && real <= 0x1p53 && real == floor(real)
-               ? (int64_t)real
-               : -1;
+    return json_is_integer(value) && json_integer_value(value) >= 0 ? json_integer_value(value)
+                                                                    : -1;
 }
 
 int64_t mote_gltf_whole_or_0(const json_t *object, const char *key)

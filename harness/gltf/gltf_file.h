@@ -33,7 +33,7 @@ typedef struct mote_gltf {
 bool mote_gltf_is(const char *path, const char *data, size_t size);
 
 /* Reads a file of size bytes, which must outlive gltf if it is binary. path locates buffers in
-   other files, and is for messages. MOTE_EINVAL: a binary file that ends early or whose JSON
+   other files, and is for messages. Numbers such as 16.0 are 16 from here on. MOTE_EINVAL: a binary file that ends early or whose JSON
    fills no whole words, or text that is no JSON. Close with mote_gltf_close. */
 mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote_gltf *gltf);
 void mote_gltf_close(mote_gltf *gltf);
@@ -45,7 +45,7 @@ bool mote_gltf_is_2(const mote_gltf *gltf);
 /* Entry number index of the file's list of that name, or NULL. */
 const json_t *mote_gltf_entry(const mote_gltf *gltf, const char *list, int64_t index);
 
-/* The value of a member that is a whole number of at least 0, 16.0 too, otherwise -1. */
+/* The value of a member that is a whole number of at least 0, otherwise -1. */
 int64_t mote_gltf_whole(const json_t *object, const char *key);
 
 /* The same of a member that may be left out, and then is 0. */

@@ -159,19 +159,14 @@ static void set_skins(mote_gltf *gltf, json_t *root)
     }
 }
 
-/* The channels that move nodes, whose numbers assimp knows without a decimal point only. */
+/* The channels that move nodes. */
 static json_t *moving_channels(const mote_gltf *gltf, const json_t *channels)
 {
     json_t *moving = json_array();
     for (size_t c = 0; c < json_array_size(channels); ++c) {
-        const json_t *channel = json_array_get(channels, c);
-        if (!mote_gltf_moves(gltf, channel))
-            continue;
-        json_t *own = json_copy((json_t *)(uintptr_t)channel);
-        json_t *target = json_copy(json_object_get(channel, "target"));
-        set(target, "node", json_integer(mote_gltf_whole(target, "node")));
-        set(own, "target", target);
-        (void)append(moving, own);
+        json_t *channel = json_array_get(channels, c);
+        if (mote_gltf_moves(gltf, channel))
+            (void)append(moving, json_incref(channel));
     }
     return moving;
 }

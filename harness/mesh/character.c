@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void mote_character_free_arrays(mote_character *character)
 {
@@ -88,9 +87,8 @@ mote_status mote_character_import_file(const char *path, mote_character **charac
                                        mote_character_import *import)
 {
     static const char *const still[] = {".obj", ".off", ".ply", ".stl"};
-    const char *ending = strrchr(path, '.');
-    for (size_t i = 0; ending && i < sizeof still / sizeof still[0]; ++i) {
-        if (strcasecmp(ending, still[i]) == 0)
+    for (size_t i = 0; i < sizeof still / sizeof still[0]; ++i) {
+        if (mote_name_ends(path, still[i]))
             return mote_fail(MOTE_EUNSUPPORTED,
                              "%s: no bones, morph targets or clips in this format; give glTF, "
                              "FBX, COLLADA or X, or name it as \"file\"",

@@ -36,12 +36,13 @@
 #define VIEWS "\"bufferViews\":[{\"buffer\":0,\"byteLength\":236}"
 #define NUMBERS                                                                                \
     POSITION "," WEIGHTS "," BINDS "," TIMES "," KEYS "," SHIFTS "," JOINTS "]," VIEWS
-#define SPARSE(stride)                                                                         \
+#define SPARSE(stride) SPARSE_AT(stride, "224", "0")
+#define SPARSE_AT(stride, indices, values)                                                     \
     "{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"  \
-    "\"max\":[1,1,0],\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"byteOffset\":"    \
-    "224,"                                                                                     \
-    "\"componentType\":5121},\"values\":{\"bufferView\":0}}}," WEIGHTS "," BINDS "," TIMES     \
-    "," KEYS "," SHIFTS "," JOINTS "]," VIEWS                                                  \
+    "\"max\":[1,1,0],\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,"                   \
+    "\"byteOffset\":" indices                                                                  \
+    ",\"componentType\":5121},\"values\":{\"bufferView\":0,\"byteOffset\":" values             \
+    "}}}," WEIGHTS "," BINDS "," TIMES "," KEYS "," SHIFTS "," JOINTS "]," VIEWS               \
     ",{\"buffer\":0,\"byteLength\":48,\"byteStride\":" stride "}"
 #define BEYOND(entry, count)                                                                   \
     "c.gltf: accessors[" entry "]: its " count                                                 \
@@ -118,6 +119,10 @@ static const struct {
      "c.gltf: accessors[0]: bufferViews[0] does not lie within the byteLength of buffers[0]",
      NULL},
     {NUMBERS, SPARSE("12"), "", NULL},
+    {NUMBERS, SPARSE_AT("12", "235", "224"), "", NULL},
+    {NUMBERS, SPARSE_AT("12", "236", "224"), BEYOND("0", "1 sparse"), NULL},
+    {NUMBERS, SPARSE_AT("12", "235", "228"), BEYOND("0", "1 sparse"), NULL},
+    {NUMBERS, SPARSE_AT("12", "-1", "224"), BEYOND("0", "1 sparse"), NULL},
     {NUMBERS, SPARSE("16"),
      "c.gltf: accessors[0]: sparse, over bufferViews[1] with a byteStride, which assimp "
      "ignores",
@@ -294,6 +299,28 @@ TEST(gltf_of_any_name_is_checked_and_read)
     refuse_mesh("c.glb", "c.glb: glTF, and text; give it a name that ends in .gltf");
     file_write("c.vrm", "glTF\2\0\0\0\30\0\0\0\4\0\0\0JSON{}  ", 24);
     refuse_mesh("c.vrm", "c.vrm: glTF, and binary; give it a name that ends in .glb");
+}
+
+/* As programs write them whose numbers are all real. assimp took 12.0 for 0, and 3.0 for none.
+ */
+TEST(gltf_whole_numbers_may_have_a_decimal_point)
+{
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0.0,\"scenes\":[{\"nodes\":[0.0]}],"
+        "\"nodes\":[{\"mesh\":0.0,\"translation\":[-0.0,2.0,0.5]}],\"meshes\":[{"
+        "\"primitives\":[{\"mode\":4.0,\"attributes\":{\"POSITION\":0.0}}]}],\"accessors\":[{"
+        "\"bufferView\":0.0,\"byteOffset\":4.0,\"componentType\":5126.0,\"count\":3.0,"
+        "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0.0,\"byteOffset\":8.0,"
+        "\"byteLength\":40.0}],\"buffers\":[{\"byteLength\":48.0,\"uri\":\"w.bin\"}]}";
+    static const float numbers[12] = {5, 6, 7, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const mote_vec3 wanted[3] = {{0, 2, 0.5}, {1, 2, 0.5}, {0, 3, 0.5}};
+    mote_mesh *mesh = NULL;
+    file_write("w.bin", numbers, sizeof numbers);
+    file_put("w.gltf", text);
+    expect(mote_mesh_import("w.gltf", &mesh, NULL), "");
+    assert_int_equal(mesh->vertex_count, 3);
+    assert_memory_equal(mesh->positions, wanted, sizeof wanted);
+    mote_mesh_destroy(mesh);
 }
 
 /* datasets/defects.md, entry 22: the corners of a triangle, up to 1,000 away in 16-bit
