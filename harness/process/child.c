@@ -15,10 +15,14 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* How often a waiting parent checks for a signal that asked it to stop. */
 #define POLL_MS 200
+
+/* A child that closed its end of the pipe ends at once, unless its work closed it. */
+#define END_SECONDS 5
 
 /* What the child sends last, after its output. */
 typedef struct final_words {
@@ -173,21 +177,50 @@ static void conclude(mote_child *child, int ended)
     }
 }
 
+/* Whether a child has ended without being asked to; *ended: its wait status, then. */
+static bool has_ended(const mote_child *child, int *ended)
+{
+    const double late = mote_clock_seconds() + END_SECONDS;
+    const struct timespec pause = {0, 100000};
+    pid_t pid;
+    while ((pid = waitpid(child->pid, ended, WNOHANG)) != child->pid) {
+        if ((pid < 0 && errno != EINTR) || mote_clock_seconds() > late)
+            return false;
+        (void)nanosleep(&pause, NULL);
+    }
+    return true;
+}
+
+static const char *why_ended(mote_child_end end)
+{
+    switch (end) {
+    case MOTE_CHILD_TIMEOUT:
+        return "took too long";
+    case MOTE_CHILD_TOO_MUCH:
+        return "returned more than is allowed";
+    default:
+        return "closed its output and went on";
+    }
+}
+
 static void reap(mote_child *child, mote_child_end end)
 {
+    int ended = 0;
     (void)close(child->input);
-    if (end != MOTE_CHILD_DONE)
+    const bool by_itself = end == MOTE_CHILD_DONE && has_ended(child, &ended);
+    if (!by_itself) {
         (void)kill(child->pid, SIGKILL);
-    const int ended = mote_spawn_wait(child->pid);
+        (void)mote_spawn_wait(child->pid);
+    }
     child->pid = 0;
     child->input = -1;
     child->end = end;
-    if (end == MOTE_CHILD_DONE)
+    if (by_itself)
         conclude(child, ended);
     else
-        (void)snprintf(child->text, sizeof child->text, "%s",
-                       end == MOTE_CHILD_TIMEOUT ? "took too long"
-                                                 : "returned more than is allowed");
+        (void)snprintf(child->text, sizeof child->text, "%s", why_ended(end));
+    if (end == MOTE_CHILD_DONE && !by_itself)
+        child->end = MOTE_CHILD_CRASHED;
 }
 
 void mote_child_stop(mote_child *children, size_t count)

@@ -43,6 +43,12 @@ static mote_status hang(void *context, int output)
     return MOTE_OK;
 }
 
+static mote_status close_and_hang(void *context, int output)
+{
+    (void)close(output);
+    return hang(context, output);
+}
+
 /* Writes as many bytes as the context says, none of them zero, and no answer after them. */
 static mote_status say_rubbish(void *context, int output)
 {
@@ -75,6 +81,18 @@ TEST(run_of_children_that_die_says_how)
     const mote_child_limits brief = {.seconds = 0.05, .output_bytes = 16};
     assert_int_equal(mote_child_run("it", hang, NULL, brief, &text, &size), MOTE_EIO);
     assert_string_equal(mote_error_text(), "it: took too long");
+    assert_null(text);
+}
+
+/* As where a plugin closes all files. There was no limit to its time then. */
+TEST(run_of_a_child_that_closes_its_output_ends)
+{
+    const mote_child_limits unlimited = {.output_bytes = 16};
+    char *text = NULL;
+    size_t size;
+    assert_int_equal(mote_child_run("it", close_and_hang, NULL, unlimited, &text, &size),
+                     MOTE_EIO);
+    assert_string_equal(mote_error_text(), "it: crashed: closed its output and went on");
     assert_null(text);
 }
 
