@@ -103,8 +103,8 @@ static void add_ratios(const mote_summary *summary, mote_text *caption)
         if (!isnan(ratio))
             mote_text_add(caption,
                           " With 1,000 bodies and %g near pairs each, a frame of certified "
-                          "takes one %.0fth "
-                          "of the time of fcl-aabb:refit=every.",
+                          "takes 1/%.0f of "
+                          "the time of fcl-aabb:refit=every.",
                           densities[d], ratio);
     }
 }

@@ -313,8 +313,8 @@ TEST(figure_bodies_caption_is_of_what_is_drawn)
     assert_int_equal(mote_figure_bodies(&run, "", &figure), MOTE_OK);
     assert_non_null(strstr(figure.data.data, "1000 5 "));
     assert_non_null(strstr(figure.caption.data, "Points: means"));
-    assert_non_null(strstr(figure.caption.data, "one 40th"));
-    assert_null(strstr(figure.caption.data, "one 30th"));
+    assert_non_null(strstr(figure.caption.data, "takes 1/40 of"));
+    assert_null(strstr(figure.caption.data, "takes 1/30 of"));
     free_figure(&figure);
 }
 
