@@ -33,8 +33,9 @@ typedef struct mote_gltf {
 bool mote_gltf_is(const char *path, const char *data, size_t size);
 
 /* Reads a file of size bytes, which must outlive gltf if it is binary. path locates buffers in
-   other files, and is for messages. Numbers such as 16.0 are 16 from here on. MOTE_EINVAL: a binary file that ends early or whose JSON
-   fills no whole words, or text that is no JSON. Close with mote_gltf_close. */
+   other files, and is for messages. Numbers such as 16.0 are 16 from here on. MOTE_EINVAL: a
+   binary file that ends early or whose JSON fills no whole words, or text that is no JSON.
+   Close with mote_gltf_close. */
 mote_status mote_gltf_open(const char *path, const char *data, size_t size, mote_gltf *gltf);
 void mote_gltf_close(mote_gltf *gltf);
 
